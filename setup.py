@@ -18,7 +18,6 @@ ASSETS = {
     "requirements.lock": "requirements.lock",
     "prompts": "prompts",
     "sites": "sites",
-    "examples/ros2_relay/relay.py": "ros2_relay.py",
     "ros2/pons_ros2": "pons_ros2",
     "web/dist": "page",
 }

@@ -25,6 +25,7 @@ from planner.navigation import RouteLimits, RouteWorker
 from planner.orders.factory import standing_orders_of
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of, picture_limits, spent_by
+from planner.plan_display import PlanDisplay
 from planner.robot_service import LinkedRobot
 from planner.settings import list_keys, load_settings
 from planner.setup_switch import ProcessSwitch
@@ -35,7 +36,7 @@ from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
 from processes.service import Service
 from wire import RobotDescription, fingerprint, load_robot
-from wire.keys import Party
+from wire.keys import PLAN_VIEW, Party
 from wire.session import open_session
 
 if TYPE_CHECKING:
@@ -170,7 +171,12 @@ class Planner:
         await self._router.start()
         self._voice.start()
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
-        self.goals.loop.hub.join(SpokenReplies(self.speaker))
+        loop = self.goals.loop
+        loop.hub.join(SpokenReplies(self.speaker))
+        if self.description.ros2 is not None:
+            shown = self._session.publisher(PLAN_VIEW)
+            places = self.memory
+            loop.hub.join(PlanDisplay(shown, lambda: loop.leg, lambda: places.places, monotonic))
         await self.eyes.start()
         await self.recorder.start(self.eyes.sight.things)
         await self.orders.keeper.start()

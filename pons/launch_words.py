@@ -56,6 +56,12 @@ CHINESE: Final[Mapping[str, str]] = {
     "speech_key": "[speech] 的密钥为空或缺失：请检查所写的文件或环境变量",
     "speech_incomplete": '[speech] engine = "server" 需要 url：请填写',
     "speech_program": "[speech] 需要的程序没有安装：请安装上面所示的程序",
+    "ros2_former_keys": (
+        "Pons 现在只通过 pons_ros2 软件包与 ROS 2 机器人通信（取代中继节点和 rosbridge）："
+        "请在机器人上用 `pons robot node ~/ros2_ws/src/pons_ros2` 写出它，`colcon build`，"
+        "`pip install 'eclipse-zenoh>=1.10,<1.11'`，再运行 `ros2 launch pons_ros2 pons.launch.py`；"
+        "[ros2] 中改写 node，话题写入机器人上的 pons.yaml，如上所示（docs/ros2.md）"
+    ),
     "ros2_not_configured": "请在 robot.toml 中添加 [ros2] 部分",
     **{code: chinese for code, (_, chinese) in PORT_CURES.items()},
 }

@@ -5,47 +5,95 @@
 
 from __future__ import annotations
 
+import sys
 import tempfile
-from array import array
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from maps import load_map
 from ros2.mounting import NoMounting, find_mounting
 from ros2.occupancy import map_files
-from ros2.robot_request import fetch, read_json
-from ros2.robot_words import ScanWords, Unreadable, read_words
-from ros2.trouble import Ros2Trouble, TopicFailure
+from ros2.robot_link import fetch
+from ros2.robot_words import MapHead, ScanWords, Unreadable, read_frames, read_words
+from ros2.trouble import CODES, Ros2Trouble, TopicFailure
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from maps import LoadedMap
     from ros2.mounting import SensorMounting
+    from ros2.robot_words import FrameWords
+    from wire import RobotDescription
 
 MAP_S, FRAMES_S = 20.0, 8.0
+EXIT_FOUND, EXIT_REFUSED = 0, 3
+
+
+class TopicRefusal(ConfigError):
+    """Refuse what a ROS 2 robot gave, or did not give; says the cure in both languages."""
+
+    def __init__(self, trouble: Ros2Trouble) -> None:
+        super().__init__(trouble.code, trouble.detail)
+        self.cure_zh = CODES[trouble.code][1]
+
+
+def load_topic_map(robot: RobotDescription, topic: str) -> LoadedMap:
+    """Return the map that a topic says, read as every map is.
+
+    Raises:
+        TopicRefusal: no such map came; with a code of ``ros2.trouble``.
+        SiteError: the map is none that Pons drives on.
+    """
+    try:
+        return fetch_map(_locator(robot), topic)
+    except TopicFailure as why:
+        raise TopicRefusal(why.trouble) from None
+
+
+def print_mounting(robot: RobotDescription) -> int:
+    """Print where the lidar sits, as a part of robot.toml; 0 found, 3 refused."""
+    try:
+        found, frame = fetch_mounting(_locator(robot))
+    except TopicFailure as why:
+        refused = TopicRefusal(why.trouble)
+        print(f"refused: {refused}\n{refused.cure_zh}", file=sys.stderr)
+        return EXIT_REFUSED
+    print(f"# {frame} in {found.base}, {found.z_m:.2f} m above it")
+    print('[lidar]\nkind = "ros2"')
+    print(f"x_m = {found.x_m:.3f}\ny_m = {found.y_m:.3f}\nyaw_rad = {found.yaw_rad:.4f}")
+    given = robot.lidar
+    off_m = max(abs(given.x_m - found.x_m), abs(given.y_m - found.y_m))
+    print(f"# robot.toml has ({given.x_m:g}, {given.y_m:g}, {given.yaw_rad:g}): {off_m:.3f} m off")
+    return EXIT_FOUND
+
+
+def _locator(robot: RobotDescription) -> str:
+    if robot.ros2 is None:
+        raise TopicFailure(Ros2Trouble("ros2_not_configured", "robot.toml has no part ros2"))
+    return robot.ros2.node
 
 
 def fetch_map(locator: str, topic: str) -> LoadedMap:
-    """Return the map that the robot says on a topic, read as every map is.
+    """Return the map that the robot says on a topic.
 
     Raises:
         TopicFailure: no such map came.
         SiteError: the map is none that Pons drives on.
     """
-    head, cells = fetch(locator, "map", MAP_S, lambda _, payload: bool(payload))
-    message = read_json(head)
-    if not isinstance(message, dict):
-        raise TopicFailure(Ros2Trouble("ros2_unreadable", f"{topic}: its head is none"))
-    if message.get("topic") != topic:
-        found = f"the node's parameter map names {message.get('topic')}, not {topic}"
-        raise TopicFailure(Ros2Trouble("ros2_topic_missing", found))
+    told, cells = fetch(locator, "map", MAP_S, lambda head, _: bool(head))
     try:
-        files = map_files(message | {"data": array("b", cells)})
+        head = read_words(MapHead, told)
+        if head.topic != topic:
+            found = f"the node's parameter map names {head.topic}, not {topic}"
+            raise TopicFailure(Ros2Trouble("ros2_topic_missing", found))
+        if head.code is not None:
+            raise Unreadable(head.found)
+        text, picture = map_files(head, cells)
     except Unreadable as why:
         raise TopicFailure(Ros2Trouble("ros2_unreadable", f"{topic}: {why}")) from None
     with tempfile.TemporaryDirectory(prefix="pons-map-") as folder:
         path = Path(folder) / "map.yaml"
-        path.write_text(files.yaml, "utf-8")
-        (path.parent / "map.pgm").write_bytes(files.pgm)
+        path.write_text(text, "utf-8")
+        (path.parent / "map.pgm").write_bytes(picture)
         return load_map(path)
 
 
@@ -60,27 +108,23 @@ def fetch_mounting(locator: str) -> tuple[SensorMounting, str]:
         frame = read_words(ScanWords, payload).frame
     except Unreadable as why:
         raise TopicFailure(Ros2Trouble("ros2_unreadable", f"scan: {why}")) from None
-    heard: list[dict[str, Any]] = []
+    heard: list[tuple[FrameWords, ...]] = []
 
-    def leads_home(_head: bytes, frames: bytes) -> bool:
-        heard[:] = [{"transforms": read_json(frames)}]
+    def leads_home(_head: bytes, payload: bytes) -> bool:
         try:
-            find_mounting(heard, frame)
+            heard[:] = [read_frames(payload)]
+            find_mounting(heard[0], frame)
         except (NoMounting, Unreadable):
             return False
         return True
 
     try:
         fetch(locator, "frames", FRAMES_S, leads_home)
-        return find_mounting(heard, frame), frame
-    except (TopicFailure, NoMounting, Unreadable):
-        return _explain(heard, frame)
-
-
-def _explain(heard: list[dict[str, Any]], frame: str) -> tuple[SensorMounting, str]:
-    """Find it once more, for the words that say why it can't be."""
+    except TopicFailure:
+        if not heard:
+            raise
     try:
-        return find_mounting(heard, frame), frame
-    except (NoMounting, Unreadable) as why:
-        code = "ros2_unreadable" if isinstance(why, Unreadable) else "ros2_no_mounting"
-        raise TopicFailure(Ros2Trouble(code, f"/tf_static, {frame!r}: {why}")) from None
+        return find_mounting(heard[0], frame), frame
+    except NoMounting as why:
+        found = f"/tf_static, {frame!r}: {why}"
+        raise TopicFailure(Ros2Trouble("ros2_no_mounting", found)) from None

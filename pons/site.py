@@ -111,7 +111,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
 
 def _chinese(refused: ConfigError) -> str:
     """Return the line in Chinese below a refusal; empty where there is none."""
-    from pons.ros2_topics import TopicRefusal
+    from pons.ros2_robot import TopicRefusal
 
     if isinstance(refused, SiteError):
         return f"\n{refused.message['zh']}"
@@ -219,7 +219,7 @@ def _load(said: argparse.Namespace) -> LoadedMap:
 
 
 def _load_topic(said: argparse.Namespace, robot: RobotDescription) -> LoadedMap:
-    from pons.ros2_topics import load_topic_map
+    from pons.ros2_robot import load_topic_map
 
     return load_topic_map(robot, said.map.removeprefix(SCHEME))
 

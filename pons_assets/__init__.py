@@ -20,8 +20,6 @@ DEFAULT_SITE = SITES / "home"
 PROMPTS = ROOT / "prompts"
 PAGE = ROOT / "page" if IS_INSTALLED else ROOT / "web" / "dist"
 """The built page; a checkout has none before ``make page``."""
-RELAY = ROOT / ("ros2_relay.py" if IS_INSTALLED else "examples/ros2_relay/relay.py")
-"""The node that runs on a robot of ROS 2 (docs/ros2.md)."""
 ROS2_NODE = ROOT / ("pons_ros2" if IS_INSTALLED else "ros2/pons_ros2")
 """The ROS 2 package that runs on a robot of ROS 2, to be built by colcon there."""
 LOCK = ROOT / "requirements.lock"

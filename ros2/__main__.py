@@ -1,15 +1,13 @@
 """Drive robot.toml's ROS 2 base: ``python -m ros2 --robot robot.toml [--home DIR]``.
 
-It reaches the robot by ``ros2.transport``, holds the graph against robot.toml, and says on
-``ros2/state`` how it goes (docs/ros2.md). A server, base or relay that is missing is waited for;
-the robot stands meanwhile.
+It dials the node on the robot, and says on ``ros2/state`` how it goes (docs/ros2.md). A node or
+base that is missing is waited for; the robot stands meanwhile.
 Exit status: 0 left when asked, 1 its home can't be written at present, 2 refused.
 """
 
 from __future__ import annotations
 
 import argparse
-import asyncio
 import gc
 import logging
 import os
@@ -18,12 +16,8 @@ import signal
 import sys
 import threading
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from processes.priority import set_fifo
-from ros2.base_link import BaseLink
-from ros2.nav2_goals import Nav2Goals
-from ros2.node import Ros2Node
 from ros2.robot_link import RobotLink
 from ros2.robot_process import RosRobotProcess
 from ros2.ros_base import RosBase
@@ -31,12 +25,6 @@ from wire import ConfigError, load_robot
 from wire.keys import Party
 from wire.plain_file import read_plain_file
 from wire.session import open_session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from wire.ros2_config import Ros2Config
-    from wire.session import Session
 
 log = logging.getLogger("ros2")
 
@@ -50,7 +38,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     parser.add_argument("--site", type=Path, help="taken as every process's, and not used")
-    parser.add_argument("--port", type=int, help="of a twin's server or router on this computer")
+    parser.add_argument("--port", type=int, help="of a twin's node on this computer")
     return parser.parse_args(arguments)
 
 
@@ -61,51 +49,29 @@ def _serve(options: argparse.Namespace) -> None:
     robot = load_robot(options.robot)
     ros2 = robot.ros2
     if ros2 is None:
-        raise ConfigError(
-            "ros2_not_configured", f"{options.robot} has no part ros2; docs/ros2.md shows one"
-        )
+        found = f"{options.robot} has no part ros2; docs/ros2.md shows one"
+        raise ConfigError("ros2_not_configured", found)
     if options.port is not None:
-        ros2 = at_port(ros2, options.port)
+        ros2 = ros2.model_copy(update={"node": f"tcp/127.0.0.1:{options.port}"})
         robot = robot.model_copy(update={"ros2": ros2})
     home = options.home or Path(os.environ.get("PONS_HOME") or ".pons")
-    set_fifo(PRIORITY)  # before the session, whose threads inherit it
-    with open_session(Party.ROS2, robot.id, home) as session:
-        boot_id = f"ros2-{secrets.token_hex(4)}"
-        if ros2.node is not None:
-            base = RosBase(robot, boot_id, relay_key(home))
-            _serve_node(base, ros2.node, session, relay_key(home), nav2=ros2.nav2 is not None,
-                        stopped=stopped.is_set)  # fmt: skip
-            return
-        nav2 = Nav2Goals(ros2, ros2.nav2, boot_id) if ros2.nav2 is not None else None
-        link = BaseLink(robot, boot_id, relay_key(home))
-        node = Ros2Node(link, ros2, session, nav2)
-        gc.collect()
-        gc.freeze()
-        log.info("dialling %s", ros2.peer)
-        asyncio.run(node.run(stopped.is_set))
-
-
-def _serve_node(
-    base: RosBase,
-    locator: str,
-    session: Session,
-    key: bytes,
-    *,
-    nav2: bool,
-    stopped: Callable[[], bool],
-) -> None:
-    """Dial the robot until told to stop."""
+    key, nav2 = relay_key(home), ros2.nav2 is not None
+    set_fifo(PRIORITY)  # before the sessions, whose threads inherit it
+    base = RosBase(robot, f"ros2-{secrets.token_hex(4)}", key)
     names = (*base.names, "nav2/state") if nav2 else base.names
-    with RobotLink(locator, names) as link:
+    with (
+        open_session(Party.ROS2, robot.id, home) as session,
+        RobotLink(ros2.node, names) as link,
+    ):
         process = RosRobotProcess(base, link, session, key, nav2=nav2)
         gc.collect()
         gc.freeze()
-        log.info("dialling %s", locator)
-        process.run(stopped)
+        log.info("dialling %s", ros2.node)
+        process.run(stopped.is_set)
 
 
 def relay_key(home: Path) -> bytes:
-    """Return the key that the relay's commands are signed with; empty where there is none.
+    """Return the key that commands are signed with; empty where there is none.
 
     Raises:
         ConfigError: it is short, or others may read it.
@@ -124,19 +90,9 @@ def relay_key(home: Path) -> bytes:
     return key
 
 
-def at_port(ros2: Ros2Config, port: int) -> Ros2Config:
-    """Return how a twin is reached: by rosbridge too where robot.toml says DDS."""
-    if ros2.node is not None:
-        return ros2.model_copy(update={"node": f"tcp/127.0.0.1:{port}"})
-    if ros2.transport == "zenoh":
-        return ros2.model_copy(update={"router": f"tcp/127.0.0.1:{port}"})
-    return ros2.model_copy(update={"transport": "rosbridge", "url": f"ws://127.0.0.1:{port}"})
-
-
 def main(arguments: list[str] | None = None) -> int:
     """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
-    logging.getLogger("websockets").setLevel(logging.ERROR)  # what ends is said by a code of ours
     try:
         _serve(_options(arguments))
     except ConfigError as error:

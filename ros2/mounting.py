@@ -7,15 +7,13 @@ base_footprint, which lies below it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, isfinite
-from typing import TYPE_CHECKING, Any
-
-from ros2.robot_words import Unreadable
+from math import atan2, hypot
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ros2.operations import Message
+    from ros2.robot_words import FrameWords
 
 BASES = ("base_link", "base_footprint")
 LEVEL = 0.985
@@ -40,29 +38,29 @@ class SensorMounting:
     yaw_rad: float
 
 
-def find_mounting(messages: Iterable[Message], frame: str) -> SensorMounting:
+def find_mounting(frames: Iterable[FrameWords], frame: str) -> SensorMounting:
     """Return where ``frame`` sits on the robot.
 
     Raises:
         NoMounting: no chain of transforms leads to a base, or it hangs head down or tilted.
-        Unreadable: a transform is none.
     """
-    parents = _parents(messages)
+    parents = {one.child.lstrip("/"): one for one in frames}
     at: Vector = (0.0, 0.0, 0.0)
     turned: Quaternion = (0.0, 0.0, 0.0, 1.0)
-    name, passed = frame.lstrip("/"), [frame.lstrip("/")]
-    found: SensorMounting | None = None
-    while True:
+    name = frame.lstrip("/")
+    passed, found = [name], None
+    while name != BASES[0] and name in parents and len(passed) <= len(parents):
         if name in BASES:
             found = _planar(name, at, turned)
-            if name == BASES[0]:
-                return found
-        if name not in parents or len(passed) > len(parents) + 1:
-            break
-        name, offset, rotation = parents[name]
-        at = _add(offset, _rotate(rotation, at))
-        turned = _multiply(rotation, turned)
+        step = parents[name]
+        if not abs(hypot(*step.turned) - 1.0) < 0.05:
+            raise NoMounting(f"the rotation of {name} in {step.parent} is none")
+        at = _add(step.at_m, _rotate(step.turned, at))
+        turned = _multiply(step.turned, turned)
+        name = step.parent.lstrip("/")
         passed.append(name)
+    if name in BASES:
+        return _planar(name, at, turned)
     if found is not None:
         return found
     raise NoMounting(f"{' > '.join(passed)} leads to none of {', '.join(BASES)}")
@@ -79,32 +77,6 @@ def _planar(base: str, at: Vector, turned: Quaternion) -> SensorMounting:
             f"it is tilted: its z axis points to ({up[0]:.2f}, {up[1]:.2f}, {up[2]:.2f})"
         )
     return SensorMounting(base, *at, atan2(ahead[1], ahead[0]))
-
-
-def _parents(messages: Iterable[Message]) -> dict[str, tuple[str, Vector, Quaternion]]:
-    """Return of each frame its parent, and where it sits there."""
-    parents = {}
-    for message in messages:
-        transforms = message.get("transforms")
-        if not isinstance(transforms, list):
-            raise Unreadable("transforms is missing")
-        for one in transforms:
-            try:
-                child, parent = one["child_frame_id"], one["header"]["frame_id"]
-                inner = one["transform"]
-                offset = tuple(float(inner["translation"][axis]) for axis in "xyz")
-                rotation = tuple(float(inner["rotation"][axis]) for axis in "xyzw")
-            except (KeyError, TypeError, ValueError, AttributeError):
-                raise Unreadable(f"a transform holds {repr(one)[:80]}") from None
-            length = sum(value * value for value in rotation)
-            if not all(map(isfinite, offset)) or not 0.9 < length < 1.1:
-                raise Unreadable(f"the transform of {child} is none")
-            parents[str(child).lstrip("/")] = _edge(str(parent).lstrip("/"), offset, rotation)
-    return parents
-
-
-def _edge(parent: str, offset: Any, rotation: Any) -> tuple[str, Vector, Quaternion]:
-    return parent, offset, rotation
 
 
 def _add(a: Vector, b: Vector) -> Vector:

@@ -10,67 +10,51 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from ros2.transport import NOTHING_MADE, LinkMessages
-from ros2.twist_topic import TwistTopic
 from wire import Grant, Heartbeat, Hello, Mode, Velocity, VelocitySequence, keys
 
 if TYPE_CHECKING:
-    from ros2.operations import Answer, Request
-    from ros2.trouble import Ros2Trouble
-    from wire import Record, Status
+    from wire import Nav2State, Record, Status
     from wire.keys import Key
-    from wire.ros2_config import Ros2Config
 
 PERIOD_S = 0.045
 """20 Hz and its jitter: the bridge counts seven in 250 ms as a flood."""
+OLD_S = 0.25
+"""A twist that is older is not said: by then Nav2 would have said another, or has died."""
+SILENT_S = 1.0
+"""The process beside us speaks ten times a second; one that is silent for so long is not heard."""
 PAUSE_S = 1.0
 """After so long without motion what comes is another goal of Nav2's."""
 METRES, SECONDS = 60.0, 600.0
+_STILL = 1e-4
 
 
 class Nav2Velocity:
-    """Hear one topic and say what an external brain says to the bridge. Told the time."""
+    """Hear what Nav2 says and say what an external brain says to the bridge. Told the time."""
 
-    def __init__(self, ros2: Ros2Config, topic: str, planner_id: str, robot_hash: str) -> None:
-        self._topic = TwistTopic(ros2, topic)
+    def __init__(self, planner_id: str, robot_hash: str) -> None:
         self._me, self._robot_hash = planner_id, robot_hash
-        self._said_s = self._spoken_s = self._moved_s = -inf
+        self._state: Nav2State | None = None
+        self._heard_s = self._said_s = self._moved_s = -inf
+        self._heard_twist = self._said_twist = ("", 0)
         self._missions = 0
         self._numbers = VelocitySequence()
 
-    def open(self, _now_s: float) -> None:
-        """Begin anew: another robot may stand behind this connection."""
-        self._topic.open()
-
-    def close(self, trouble: Ros2Trouble) -> None:
-        """Note that there is no connection now: nothing is said any more."""
-        self._topic.close(trouble)
-
-    def due(self, now_s: float) -> list[Request]:
-        """Return what is to be asked of the graph."""
-        return self._topic.due(now_s)
-
-    def hear(self, said: Answer | None, now_s: float) -> LinkMessages:
-        """Take one answer of the graph; nothing of the wire comes of it at once."""
-        came, twist = self._topic.hear(said, now_s), self._topic.twist
-        moves = came and twist is not None and not twist.is_still
-        if moves and now_s - self._moved_s > PAUSE_S:
+    def hear(self, state: Nav2State, now_s: float) -> None:
+        """Take the newest word of Nav2."""
+        self._state, self._heard_s = state, now_s
+        twist = (state.boot_id, state.twist)
+        came = state.twist > 0 and twist != self._heard_twist
+        self._heard_twist = twist
+        if came and not _is_still(state) and now_s - self._moved_s > PAUSE_S:
             self._missions += 1
             self._moved_s = now_s
-        return NOTHING_MADE
 
-    def subscribe(self, said: Answer | None) -> list[Request]:
-        """Return the subscription that a topic's type asks for, once."""
-        return self._topic.subscribe(said)
-
-    @property
-    def refusal_count(self) -> int:
-        """Return how many messages could not be read."""
-        return self._topic.refused
-
-    def trouble(self, now_s: float) -> Ros2Trouble | None:
-        """Return what keeps velocities away; None while they come."""
-        return self._topic.trouble(now_s)
+    def trouble(self, now_s: float) -> str | None:
+        """Return what keeps velocities away; None while they come, or Nav2 is silent."""
+        state = self._state
+        if state is None or now_s - self._heard_s > SILENT_S:
+            return "nav2_not_heard: the ROS 2 process says nothing of Nav2: look at logs/ros2.log"
+        return None if state.code is None else f"{state.code}: {state.detail}"
 
     def answer(self, status: Status) -> list[tuple[Key[Record], Record]]:
         """Return what an owner says on each status."""
@@ -82,8 +66,8 @@ class Nav2Velocity:
             return said
         now = {"planner_id": self._me, "epoch": status.epoch, "seen": status.seq}
         said.append((_widened_key(keys.HEARTBEAT), Heartbeat(**now, used=status.seq)))
-        twist = self._topic.twist
-        wants = twist is not None and not twist.is_still and self._topic.is_sound
+        state = self._state
+        wants = state is not None and state.twist > 0 and not _is_still(state)
         is_new = status.grant is None or status.grant.mission != self._mission()
         free = status.held is None and status.mode in (Mode.HOLD, Mode.ACTIVE)
         if wants and is_new and free:
@@ -93,24 +77,25 @@ class Nav2Velocity:
 
     def velocity(self, status: Status, now_s: float) -> Velocity | None:
         """Return the newest twist as the bridge hears it, once; None: nothing is to be said."""
-        twist = self._topic.fresh(now_s)
+        state = self._state
         owned = status.owner is not None and status.owner.planner_id == self._me
-        if twist is None or not owned or now_s - self._said_s < PERIOD_S:
+        if state is None or not owned or status.grant is None or now_s - self._said_s < PERIOD_S:
             return None
-        if twist.came_s == self._spoken_s or status.grant is None:
+        twist, age_s = (state.boot_id, state.twist), state.twist_age_s + now_s - self._heard_s
+        if not (state.twist > 0 and twist != self._said_twist and age_s <= OLD_S):
             return None
-        self._spoken_s = twist.came_s
-        if not twist.is_still:
+        still = _is_still(state)
+        self._said_twist, self._said_s = twist, now_s
+        if not still:
             self._moved_s = now_s
-        self._said_s = now_s
         return Velocity(
             source_id=self._me,
             epoch=status.epoch,
             seq=self._numbers.take_next(status.epoch),
             seen=status.seq,
-            v_mps=twist.v_mps,
-            w_radps=twist.w_radps,
-            dead_man=not twist.is_still,
+            v_mps=state.v_mps,
+            w_radps=state.w_radps,
+            dead_man=not still,
         )
 
     def _mission(self) -> str:
@@ -126,6 +111,10 @@ class Nav2Velocity:
             fence_hash=status.fence_hash,
             map_id=map_id,
         )
+
+
+def _is_still(state: Nav2State) -> bool:
+    return abs(state.v_mps) < _STILL and abs(state.w_radps) < _STILL
 
 
 def _widened_key(key: object) -> Key[Record]:

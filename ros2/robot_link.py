@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import json
 import os
+import time
 from typing import TYPE_CHECKING, Any
 
 import zenoh
 
 from ros2.pons_ros2.pons_ros2.link import HEARS, PREFIX, SAYS, access_control
+from ros2.trouble import Ros2Trouble, TopicFailure
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import TracebackType
     from typing import Self
 
@@ -24,6 +27,7 @@ MOST_BYTES = 1 << 20
 """A scan of 2 048 beams has 20 kB."""
 MOST_PICTURE_BYTES = 17 << 20
 MOST_MAP_BYTES = 65 << 20
+PERIOD_S, DIAL_S = 0.02, 4.0
 _RUNTIME = "(net: (handover: rx), acc: (handover: rx))"
 
 
@@ -93,6 +97,30 @@ class RobotLink:
         trace: TracebackType | None,
     ) -> None:
         self.close()
+
+
+def fetch(
+    locator: str, name: str, limit_s: float, is_enough: Callable[[bytes, bytes], bool]
+) -> tuple[bytes, bytes]:
+    """Dial, return the first message of a key that is enough, and leave: its head and its bytes.
+
+    Raises:
+        TopicFailure: it did not come within ``limit_s``; says why.
+    """
+    began_s = time.monotonic()
+    with RobotLink(locator, (name,), MOST_MAP_BYTES) as link:
+        while (passed_s := time.monotonic() - began_s) <= limit_s:
+            for head, payload in link.take_headed(name):
+                if is_enough(head, payload):
+                    return head, payload
+            if passed_s > DIAL_S and not link.is_joined:
+                break
+            time.sleep(PERIOD_S)
+        if not link.is_joined:
+            found = f"nobody answers at {locator}"
+            raise TopicFailure(Ros2Trouble("ros2_no_node", found))
+    found = f"the node at {locator} said no {name}; its parameters name the topics"
+    raise TopicFailure(Ros2Trouble("ros2_topic_missing", found))
 
 
 def _config(locator: str, most_bytes: int) -> Any:

@@ -48,6 +48,7 @@ class RosRobotProcess:
         self._state = session.publisher(keys.ROS2_STATE)
         self._orders = session.subscriber(keys.NAV2_GOAL) if nav2 else None
         self._nav2 = session.publisher(keys.NAV2_STATE)
+        self._views = session.subscriber(keys.PLAN_VIEW)
         self._turned_s = self._began_s = time.monotonic()
         self._distrusted_until_s = self._looked_s = self._said_s = float("-inf")
         self._code: str | None = STARTING
@@ -75,10 +76,10 @@ class RosRobotProcess:
             words = self._base.encode(command, now_s)
             if words is not None:
                 self._link.say("command", words)
-        if self._orders is not None:
-            order = self._orders.newest()
-            if order is not None:
-                self._link.say("nav2/goal", sign(encode(order).decode(), self._key).encode())
+        for name, heard in (("nav2/goal", self._orders), ("plan", self._views)):
+            said = heard.newest() if heard is not None else None
+            if said is not None:
+                self._link.say(name, sign(encode(said).decode(), self._key).encode())
 
     def _hear(self, now_s: float) -> None:
         for name in self._base.names:

@@ -9,7 +9,7 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, TypeVar
 
-from pydantic import ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field, TypeAdapter, ValidationError
 
 from ros2.pons_ros2.pons_ros2.dead_man import sign
 from wire.base import Record
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 RosSeconds = Annotated[float, Field(ge=-1e12, le=1e12)]
 """On the robot's ROS clock."""
+Frame = Annotated[str, Field(max_length=64)]
+Unit = Annotated[float, Field(ge=-1.1, le=1.1)]
 Metres = Annotated[float, Field(ge=-1e6, le=1e6)]
 Range = Annotated[float, Field(ge=0.0, le=1000.0)]
 Angle = Annotated[float, Field(ge=-7.0, le=7.0)]
@@ -85,7 +87,7 @@ class ScanWords(RobotRecord):
     """Give one planar scan, counter-clockwise; a beam is null where nothing came back."""
 
     stamp_s: RosSeconds
-    frame: Annotated[str, Field(max_length=64)] = ""
+    frame: Frame = ""
     angle_min_rad: Angle
     angle_increment_rad: Annotated[float, Field(gt=0.0, le=7.0)]
     time_increment_s: Annotated[float, Field(ge=0.0, le=0.01)]
@@ -104,8 +106,25 @@ class ImuWords(RobotRecord):
     accel_y_mps2: Accel
 
 
-class PictureHead(RobotRecord):
-    """Say what a picture's bytes are, or by which code there is none."""
+class FrameWords(RobotRecord):
+    """Give where one frame sits in another, as /tf_static says it."""
+
+    parent: Frame
+    child: Frame
+    at_m: tuple[Metres, Metres, Metres]
+    turned: tuple[Unit, Unit, Unit, Unit]
+    """A quaternion: x, y, z, w."""
+
+
+class BytesHead(RobotRecord):
+    """Say what bytes are, or by which code there are none."""
+
+    code: Code | None = None
+    found: Text = ""
+
+
+class PictureHead(BytesHead):
+    """Say what a picture's bytes are."""
 
     kind: Annotated[str, Field(pattern=r"^(packed|raw)$")] = "packed"
     format: Annotated[str, Field(max_length=80)] = ""
@@ -113,11 +132,34 @@ class PictureHead(RobotRecord):
     width: Annotated[int, Field(ge=0, le=8192)] = 0
     height: Annotated[int, Field(ge=0, le=8192)] = 0
     stamp_s: RosSeconds | None = None
-    code: Code | None = None
-    found: Text = ""
+
+
+class MapHead(BytesHead):
+    """Say how a map's cells lie; they are percentages, from the lowest y on, 255 is unknown."""
+
+    topic: Text
+    resolution_m: Annotated[float, Field(gt=0.0, le=10.0)] = 1.0
+    width: Annotated[int, Field(ge=0, le=1 << 20)] = 0
+    height: Annotated[int, Field(ge=0, le=1 << 20)] = 0
+    x_m: Metres = 0.0
+    y_m: Metres = 0.0
+    yaw_rad: Angle = 0.0
 
 
 M = TypeVar("M", bound=RobotRecord)
+FRAMES = TypeAdapter(Annotated[tuple[FrameWords, ...], Field(max_length=1024)])
+
+
+def read_frames(payload: bytes) -> tuple[FrameWords, ...]:
+    """Return the frames that a robot's node says.
+
+    Raises:
+        Unreadable: they are none.
+    """
+    try:
+        return FRAMES.validate_json(payload, strict=True)
+    except (ValidationError, RecursionError) as error:
+        raise Unreadable(_shorten(error)) from None
 
 
 def read_words(kind: type[M], payload: bytes) -> M:
@@ -129,7 +171,11 @@ def read_words(kind: type[M], payload: bytes) -> M:
     try:
         return kind.model_validate_json(payload, strict=True)
     except (ValidationError, RecursionError) as error:
-        raise Unreadable(" ".join(str(error).splitlines()[:3])[:160]) from None
+        raise Unreadable(_shorten(error)) from None
+
+
+def _shorten(error: Exception) -> str:
+    return " ".join(str(error).splitlines()[:3])[:160]
 
 
 @dataclass(frozen=True, slots=True)

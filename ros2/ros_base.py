@@ -8,14 +8,14 @@ gives no drive state, and without one the bridge stands.
 from __future__ import annotations
 
 import logging
+from collections import deque
 from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
-from ros2.arrivals import TopicArrivals
-from ros2.relay_watch import SILENT_S, RelayWatch
+from ros2.relay_watch import OLDEST_S, SILENT_S, RelayWatch
 from ros2.robot_words import (
     ImuWords,
     OdometryWords,
@@ -26,7 +26,6 @@ from ros2.robot_words import (
     encode_command,
     read_words,
 )
-from ros2.ros_clock import OLDEST_S
 from ros2.trouble import STARTING, Ros2Trouble
 from ros2.virtual_wheels import VirtualWheels
 from wire import DriveState, Imu, Ros2Status, Scan
@@ -42,6 +41,43 @@ SCAN_SILENT_S = 1.0
 SLOWEST_ODOM_HZ = 20.0
 """A state may be 80 ms old before the bridge holds (ENC_STALE)."""
 YOUNG_S = 3.0
+WINDOW_S = 2.0
+"""Arrivals are counted over so long, and a refused message is told of."""
+
+
+class TopicArrivals:
+    """Hold the arrivals of one key in the last seconds, and what was wrong with it."""
+
+    def __init__(self) -> None:
+        self._at_s: deque[float] = deque(maxlen=4096)
+        self._newest_s: float | None = None
+        self.wrong = ""
+        """Why the newest that was refused could not be used."""
+        self._wrong_s = -inf
+
+    def note(self, now_s: float) -> None:
+        """Count one good message."""
+        self._at_s.append(now_s)
+        self._newest_s = now_s
+
+    def refuse(self, why: str, now_s: float) -> None:
+        """Remember one that could not be used."""
+        self.wrong, self._wrong_s = why, now_s
+
+    def rate_hz(self, now_s: float) -> float:
+        """Return how many a second came in the last two."""
+        while self._at_s and now_s - self._at_s[0] > WINDOW_S:
+            self._at_s.popleft()
+        return len(self._at_s) / WINDOW_S
+
+    def silent_s(self, since_s: float, now_s: float) -> float:
+        """Return for how long nothing good came, counted from ``since_s`` at the earliest."""
+        newest_s = self._newest_s if self._newest_s is not None else since_s
+        return now_s - max(newest_s, since_s)
+
+    def is_refused(self, now_s: float) -> bool:
+        """Return whether a message was refused in the last two seconds."""
+        return now_s - self._wrong_s <= WINDOW_S
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +99,7 @@ class RosBase:
         """Begin without a connection; ``relay_key`` signs the commands."""
         if robot.ros2 is None:
             raise ValueError("ros2: robot.toml is refused without it")
-        self.peer = robot.ros2.peer
+        self.peer = robot.ros2.node
         self._ttl_s = robot.drive.timeout_s
         self._relay_key = relay_key
         limits = robot.limits
@@ -71,7 +107,7 @@ class RosBase:
         self._boot_id, self._lives, self._life_of = boot_id, 0, ""
         self._closed: Ros2Trouble | None = Ros2Trouble(STARTING, f"{self.peer}: not reached yet")
         self._opened_s = self._odom_stamp_s = -inf
-        self._relay = RelayWatch("cmd_vel", self.peer, has_key=bool(relay_key))
+        self._relay = RelayWatch(self.peer, has_key=bool(relay_key))
         self._readers: dict[str, Callable[[bytes, float], LinkMessages]] = {
             "state": self._hear_state,
             "odom": self._hear_odometry,

@@ -5,76 +5,43 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 STARTING = "ros2_starting"
-_LAUNCH = "ros2 launch rosbridge_server rosbridge_websocket_launch.xml"
-_RELAY = "pons robot relay > relay.py; python3 relay.py"
 _START = "ros2 launch pons_ros2 pons.launch.py"
 _INSTALL = f"install pons_ros2 on the robot (docs/ros2.md) and start `{_START}` there"
 _INSTALL_ZH = f"请在机器人上安装 pons_ros2（docs/ros2.md）并运行 `{_START}`"
 CODES: dict[str, tuple[str, str]] = {
     STARTING: ("it was just reached: wait", "刚刚连上：请稍候"),
-    "ros2_no_node": (
-        f"{_INSTALL}; look at ros2.node",
-        f"{_INSTALL_ZH}；并检查 ros2.node",
+    "ros2_not_configured": (
+        "add the part ros2; robots/ros2_diff_drive.toml shows one",
+        "请添加 ros2 部分；可参考 robots/ros2_diff_drive.toml",
     ),
+    "ros2_no_node": (f"{_INSTALL}; look at ros2.node", f"{_INSTALL_ZH}；并检查 ros2.node"),
     "ros2_node_gone": (
-        "the robot stands by its node's dead-man; it is dialled anew",
+        "the robot stands by its node's dead-man; it is dialled again",
         "机器人已由其节点的超时保护停下；正在重新连接",
     ),
-    "ros2_no_server": (
-        f"start `{_LAUNCH}` on the robot, and look at ros2.url",
-        f"请在机器人上运行 `{_LAUNCH}`，并检查 ros2.url",
+    "ros2_relay_silent": (
+        f"it was there; look at its terminal, and start `{_START}` again",
+        f"节点曾经在线；请查看它的终端并重新运行 `{_START}`",
     ),
-    "ros2_server_gone": (
-        "the robot stands by its relay's dead-man; it is dialled anew",
-        "机器人已由中继节点的超时保护停下；正在重新连接",
-    ),
-    "ros2_no_rosapi": (
-        "is this rosbridge_server, with rosapi beside it, as its launch file starts both?",
-        "请确认这是 rosbridge_server，且 rosapi 已随其启动文件一同运行",
-    ),
-    "ros2_no_peer": (
-        "start the robot's nodes; ros2.domain must be their ROS_DOMAIN_ID, on a network they share",
-        "请启动机器人的节点；ros2.domain 必须与其 ROS_DOMAIN_ID 相同，且双方在同一网络中",
-    ),
-    "ros2_no_router": (
-        "start `ros2 run rmw_zenoh_cpp rmw_zenohd` on the robot, and look at ros2.router",
-        "请在机器人上运行 `ros2 run rmw_zenoh_cpp rmw_zenohd`，并检查 ros2.router",
-    ),
-    "ros2_no_dds": (
-        "pip install 'pons-robot[dds]' (x86_64), or another ros2.transport; look at ros2.interface",
-        "请安装 'pons-robot[dds]'（x86_64）或改用其他 ros2.transport，并检查 ros2.interface",
+    "ros2_relay_key": (
+        "put its key file at $PONS_HOME/relay.key (mode 0600), or start the node without",
+        "请将节点的密钥文件放到 $PONS_HOME/relay.key（权限 0600），或不带密钥启动节点",
     ),
     "ros2_two_robots": (
         "one robot a domain: end the other (a killed one counts for 20 s) or change ROS_DOMAIN_ID",
         "每个域只能有一个机器人：请关闭另一个（被强制结束的仍计入 20 秒）或修改 ROS_DOMAIN_ID",
     ),
     "ros2_no_base": (
-        "start the base's own driver, or name its topic in ros2.cmd_vel",
-        "请启动底盘自己的驱动，或在 ros2.cmd_vel 中写它的话题",
+        "start the base's own driver, or name its topic in the node's parameter cmd_vel",
+        "请启动底盘自己的驱动，或在节点参数 cmd_vel 中写它的话题",
     ),
     "ros2_cmd_vel_type": (
-        "ros2.cmd_vel must name a topic of Twist or TwistStamped",
-        "ros2.cmd_vel 必须是 Twist 或 TwistStamped 类型的话题",
-    ),
-    "ros2_no_relay": (
-        f"a bare cmd_vel has no dead-man: start `{_RELAY}` on the robot, where ROS 2 is sourced",
-        f"单独的 cmd_vel 没有超时保护：请在已加载 ROS 2 的机器人上运行 `{_RELAY}`",
-    ),
-    "ros2_relay_silent": (
-        f"it was there; look at its terminal, and start `{_RELAY}` anew",
-        f"中继节点曾经在线；请查看它的终端并重新运行 `{_RELAY}`",
-    ),
-    "ros2_relay_key": (
-        "put the relay's key file at $PONS_HOME/relay.key (mode 0600), or start the relay without",
-        "请将中继节点的密钥文件放到 $PONS_HOME/relay.key（权限 0600），或不带密钥启动中继节点",
-    ),
-    "ros2_relay_disagrees": (
-        "relay and Pons must see one graph: the same ROS_DOMAIN_ID, and one type on ros2.cmd_vel",
-        "中继节点与 Pons 必须看到同一个图：相同的 ROS_DOMAIN_ID，且 ros2.cmd_vel 只有一种类型",
+        "name a topic of Twist or TwistStamped",
+        "请填写 Twist 或 TwistStamped 类型的话题",
     ),
     "ros2_cmd_vel_shared": (
-        "the relay must be alone there: end the other (Nav2, a joystick), or name another topic",
-        "ros2.cmd_vel 上只能有中继节点发布：请关闭其他发布者（Nav2、手柄），或改用其他话题",
+        "the node must be alone there: end the other (Nav2, a joystick), or name another topic",
+        "该话题上只能有此节点发布：请关闭其他发布者（Nav2、手柄），或改用其他话题",
     ),
     "ros2_topic_missing": (
         "start what publishes it, or name the topic that there is",
@@ -84,33 +51,17 @@ CODES: dict[str, tuple[str, str]] = {
         "name the topic of the expected type",
         "请填写类型正确的话题",
     ),
-    "ros2_image_raw": (
-        "only packed pictures are heard: name its /compressed topic (image_transport_plugins)",
-        "只接收压缩图像：请填写其 /compressed 话题（需安装 image_transport_plugins）",
-    ),
-    "ros2_image_depth": (
-        "name the colour camera's /compressed topic: depth is not read from ROS 2",
-        "请填写彩色摄像头的 /compressed 话题：不从 ROS 2 读取深度",
-    ),
-    "ros2_message_too_large": (
-        "have its publisher send less: a smaller picture, a lower jpeg_quality",
-        "请让发布者减小数据量：更小的画面或更低的 jpeg_quality",
-    ),
-    "ros2_not_configured": (
-        "add the part ros2; robots/ros2_diff_drive.toml shows one",
-        "请添加 ros2 部分；可参考 robots/ros2_diff_drive.toml",
-    ),
     "ros2_no_mounting": (
         "start robot_state_publisher or a static_transform_publisher that says where it sits",
         "请启动 robot_state_publisher 或 static_transform_publisher 以说明其安装位置",
     ),
     "ros2_unreadable": (
-        "look at it with `ros2 topic echo`; what is null or not a number moves nothing",
-        "请用 `ros2 topic echo` 查看；空值或非数字不会驱动机器人",
+        "look at it with `ros2 topic echo`; what is not a number moves nothing",
+        "请用 `ros2 topic echo` 查看；非数字不会驱动机器人",
     ),
     "ros2_clock": (
-        "base, sensors and relay must share one clock (chrony; use_sim_time for all or none)",
-        "底盘、传感器与中继节点必须使用同一时钟（chrony；use_sim_time 要么都用要么都不用）",
+        "base, sensors and node must share one clock (chrony; use_sim_time for all or none)",
+        "底盘、传感器与节点必须使用同一时钟（chrony；use_sim_time 要么都用要么都不用）",
     ),
     "ros2_odom_slow": (
         "raise the base's publishing rate to 25 Hz or more; at less the bridge holds (ENC_STALE)",
@@ -119,10 +70,6 @@ CODES: dict[str, tuple[str, str]] = {
     "ros2_topic_silent": (
         "its publisher is there and says nothing: look at its log",
         "发布者在线但没有消息：请查看其日志",
-    ),
-    "ros2_server_refuses": (
-        "look at rosbridge's parameters (topics_glob, services_glob) and log",
-        "请检查 rosbridge 的参数（topics_glob、services_glob）和日志",
     ),
 }
 """What cures each, in English and Chinese."""

@@ -13,15 +13,12 @@ from typing import TYPE_CHECKING
 from wire import wrap
 
 if TYPE_CHECKING:
-    from ros2.messages import OdometryReading
     from ros2.robot_words import OdometryWords
-
-    Odometry = OdometryReading | OdometryWords
     from wire.robot import Base
 
 JUMP_M = 0.1
 JUMP_RAD = 0.2
-"""Beyond what the limits allow in the time between two poses: the base counts anew."""
+"""Beyond what the limits allow in the time between two poses: its wheels begin at 0."""
 FASTEST_RADPS = 1000.0
 _STRAIGHT_RAD = 1e-6
 
@@ -42,7 +39,7 @@ class VirtualWheels:
     def __init__(self, base: Base, top_mps: float, top_radps: float) -> None:
         """Set the geometry, and the speeds beyond which a pose has jumped."""
         self._base, self._top_mps, self._top_radps = base, top_mps, top_radps
-        self._last: Odometry | None = None
+        self._last: OdometryWords | None = None
         self._left_rad = self._right_rad = 0.0
 
     def twist(self, left_radps: float, right_radps: float) -> tuple[float, float]:
@@ -56,7 +53,7 @@ class VirtualWheels:
         """Let the next pose be the first."""
         self._last = None
 
-    def jumps(self, pose: Odometry) -> bool:
+    def jumps(self, pose: OdometryWords) -> bool:
         """Return whether no motion leads from the last pose to this one."""
         last = self._last
         if last is None:
@@ -70,7 +67,7 @@ class VirtualWheels:
             and turned_rad <= JUMP_RAD + 2.0 * self._top_radps * passed_s
         )
 
-    def turn(self, pose: Odometry) -> WheelReading:
+    def turn(self, pose: OdometryWords) -> WheelReading:
         """Take the next pose; return the wheels.
 
         Two poses are the ends of an arc, and its chord points along the mean heading.

@@ -11,7 +11,7 @@ compile=(
 )
 "${compile[@]}" --extra install pyproject.toml --output-file requirements.lock
 .venv/bin/python -m scripts.locked_extra # the same versions for the wheel
-"${compile[@]}" --extra install --extra dev --extra dds --constraint requirements.lock pyproject.toml \
+"${compile[@]}" --extra install --extra dev --constraint requirements.lock pyproject.toml \
   --output-file requirements-dev.lock
 # The versions that tests have, so that installing it into .venv changes none of them.
 "${compile[@]}" --extra install --extra attack --constraint requirements-dev.lock pyproject.toml \

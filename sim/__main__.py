@@ -3,7 +3,7 @@
 ``--twin LINK`` has it answer as a base on a serial line, not on the wire (docs/drives.md),
 ``--twin-firmware BUILD`` has our own firmware's bytes do so (docs/firmware.md),
 ``--lidar-twin LINK`` as a lidar (docs/lidars.md), ``--ros2-twin PORT`` as a whole ROS 2 robot
-behind a rosbridge server (docs/ros2.md);
+with its node (docs/ros2.md);
 ``--metal FILE`` makes motors and wheels differ from what robot.toml believes (docs/calibrate.md);
 ``--domain FILE`` turns the knobs of sim/domain.py (docs/sim2real.md).
 """
@@ -27,7 +27,7 @@ from sim.node import SimNode
 from sim.robot import SimRobot
 from sim.site import check_fresh
 from sim.true_parameters import load_metal
-from sim.twin import DriveTwin, LidarTwin, Ros2NodeTwin, Ros2Twin
+from sim.twin import DriveTwin, LidarTwin, Ros2Twin
 from sim.twin.avr_board import boot_build
 from wire import ConfigError, Pose2, RobotDescription, load_robot
 from wire.keys import Party
@@ -57,7 +57,7 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
         "--lidar-twin", type=Path, help="be robot.toml's lidar at a line of this name"
     )
     parser.add_argument(
-        "--ros2-twin", type=int, metavar="PORT", help="be a ROS 2 robot at a rosbridge server there"
+        "--ros2-twin", type=int, metavar="PORT", help="be a ROS 2 robot whose node listens there"
     )
     parser.add_argument("--seed", type=int, default=0, help="seed of all noise (default 0)")
     parser.add_argument(
@@ -92,7 +92,7 @@ def _serve(options: argparse.Namespace) -> None:
     lidar = LidarTwin(description.lidar, options.lidar_twin) if options.lidar_twin else None
     set_fifo(PRIORITY)  # before the session, whose threads inherit it
     port: int | None = options.ros2_twin
-    ros2 = _play_ros2(description, port) if port is not None else None
+    ros2 = Ros2Twin(description, port) if port is not None else None
     with open_session(Party.ROBOT, description.id, home) as session:
         shell = SimNode(robot, session, twin, lidar, ros2)
         gc.collect()
@@ -105,12 +105,6 @@ def _serve(options: argparse.Namespace) -> None:
                 "domain: %s", domain.as_toml().strip().replace("\n", ", ")
             )
         shell.run(stopped.is_set)
-
-
-def _play_ros2(robot: RobotDescription, port: int) -> Ros2Twin | Ros2NodeTwin:
-    """Return the twin that speaks as robot.toml reaches its robot."""
-    by_node = robot.ros2 is not None and robot.ros2.node is not None
-    return Ros2NodeTwin(robot, port) if by_node else Ros2Twin(robot, port)
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from sim.messages import Report
     from sim.robot import SimRobot
-    from sim.twin import DriveTwin, LidarTwin, Ros2NodeTwin, Ros2Twin
+    from sim.twin import DriveTwin, LidarTwin, Ros2Twin
     from wire import Imu, SimControl
     from wire.session import Session
 
@@ -39,14 +39,14 @@ class SimNode:
         session: Session,
         twin: DriveTwin | None = None,
         lidar: LidarTwin | None = None,
-        ros2: Ros2Twin | Ros2NodeTwin | None = None,
+        ros2: Ros2Twin | None = None,
     ) -> None:
         """Take commands from the wire, or from a twin's line, which then has the answers.
 
         A lidar's twin says on its line what the scans would have said; a ROS 2 robot's says all.
         """
         self._robot = robot
-        self._twin: DriveTwin | Ros2Twin | Ros2NodeTwin | None = twin or ros2
+        self._twin: DriveTwin | Ros2Twin | None = twin or ros2
         self._ros2 = ros2
         base_tells = twin is not None and twin.has_gyro and not robot.robot.imu.is_on_i2c
         self._base_gyro = twin if base_tells else None

@@ -42,7 +42,7 @@ from wire.geometry import (
     transform,
     wrap,
 )
-from wire.nav2_dialogue import Nav2Goal, Nav2Phase, Nav2State
+from wire.nav2_dialogue import Nav2Goal, Nav2Phase, Nav2State, PlaceView, PlanView
 from wire.operator_hmac import (
     NEEDS_PROOF,
     VIRTUAL_KEY,
@@ -153,6 +153,8 @@ __all__ = [
     "OpRequest",
     "Owner",
     "OwnerKind",
+    "PlaceView",
+    "PlanView",
     "PortReport",
     "Pose2",
     "PoseCandidate",

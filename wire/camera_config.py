@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, model_validator
 
 from wire.base import Record
-from wire.ros2_config import Topic
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,8 +24,8 @@ class CameraConfig(Record):
 
     kind: Literal["sim", "uvc", "stream", "realsense", "ros2", "node", "none"] = "sim"
     """``sim``: the simulator draws; ``uvc``: one that Video4Linux knows, at ``device``; ``stream``:
-    one on the network, at ``url``; ``realsense``: Intel's, with depth; ``ros2``: what a base of
-    ROS 2 publishes on ``topic``; ``node``: a process that is none of ours speaks for it; ``none``:
+    one on the network, at ``url``; ``realsense``: Intel's, with depth; ``ros2``: what the node of a
+    ROS 2 robot passes on; ``node``: a process that is none of ours speaks for it; ``none``:
     there is none, and what needs one is refused."""
     device: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
     """Of a ``uvc`` camera; one below /dev/v4l/by-id keeps its name."""
@@ -34,8 +33,6 @@ class CameraConfig(Record):
     """Of a ``stream``; ``file://`` is a film, played over and over, for trials."""
     serial: Annotated[str, Field(pattern=r"^[0-9]{6,20}$")] | None = None
     """Of a ``realsense``, where there are several."""
-    topic: Topic | None = None
-    """Of a ``ros2`` camera: sensor_msgs/CompressedImage, on the graph that ``[ros2]`` reaches."""
     fourcc: Annotated[str, Field(pattern=r"^[A-Z0-9 ]{4}$")] = "MJPG"
     """How a ``uvc`` camera is asked to pack its pictures; YUYV fills USB 2 beyond 640x480."""
     upside_down: bool = False
@@ -84,7 +81,6 @@ def _wrong_camera_keys(camera: CameraConfig) -> Iterator[str]:
         ("device", "uvc", True),
         ("url", "stream", True),
         ("serial", "realsense", False),
-        ("topic", "ros2", False),
     ):
         given = getattr(camera, key) is not None
         if needed and camera.kind == kind and not given:

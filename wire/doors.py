@@ -111,9 +111,10 @@ ROS2_COPY_DOOR = Door(
 )  # fmt: skip
 NAV2_DOOR = Door(
     "nav2", Party.ROS2, (Party.PLANNER, Party.JUDGE),
-    _keys(keys.NAV2_GOAL),
+    _keys(keys.NAV2_GOAL, keys.PLAN_VIEW),
     _keys(keys.NAV2_STATE),
-    "where Nav2 is to go, and its twists, which move nothing unless the planner asks the bridge",
+    "where Nav2 is to go, and its twists, which move nothing unless the planner asks the bridge; "
+    "what RViz may show",
 )  # fmt: skip
 SIM_DOOR = Door(
     "sim", Party.ROBOT, (Party.JUDGE,),

@@ -18,7 +18,7 @@ from wire.commands import (
     Velocity,
     Waypoints,
 )
-from wire.nav2_dialogue import Nav2Goal, Nav2State
+from wire.nav2_dialogue import Nav2Goal, Nav2State, PlanView
 from wire.sensors import (
     CameraStatus,
     DriveCommand,
@@ -178,6 +178,8 @@ NAV2_GOAL = _from(_P, "nav2/goal", Nav2Goal, frozenset({_RO}), "on each status w
                   "where Nav2 is to bring the robot; moves nothing by itself")  # fmt: skip
 NAV2_STATE = _from(_RO, "nav2/state", Nav2State, frozenset({_P, _J}), "10 Hz and on each twist",
                    "what became of Nav2's goal, and its newest twist")  # fmt: skip
+PLAN_VIEW = _from(_P, "plan/view", PlanView, frozenset({_RO}), "2 Hz where a base is of ROS 2",
+                  "way and places, for RViz to show; moves nothing", max_bytes=MEDIUM)  # fmt: skip
 CAMERA_COLOR = _from(_C, "camera/color", ImageHeader, frozenset({_P, _J}), "10 Hz",
                      "JPEG, header attached", max_bytes=IMAGE)  # fmt: skip
 CAMERA_DEPTH = _from(_C, "camera/depth", ImageHeader, frozenset({_P, _J}), "10 Hz",
@@ -203,7 +205,7 @@ COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
     *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
     LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, IMU_STATE, ROS2_STATE,
-    NAV2_GOAL, NAV2_STATE,
+    NAV2_GOAL, NAV2_STATE, PLAN_VIEW,
     CAMERA_COLOR, CAMERA_DEPTH, CAMERA_STATE, SIM_TRUTH, SIM_SCENE, SIM_CONTROL, TRIAL_ORDER,
     TRIAL_STATE,
 )  # fmt: skip

@@ -1,8 +1,9 @@
-"""Define the dialogue between the planner and the ROS 2 process where Nav2 drives to its goals.
+"""Define what planner and ROS 2 process tell each other: Nav2's goals, and what RViz may show.
 
 ``nav2/goal`` is a level: the planner repeats on each status where Nav2 is to go, or that it is to
 go nowhere, and its silence means nowhere. ``nav2/state`` says what became of that goal, and Nav2's
 newest twist, which moves the robot only where the planner says it to the bridge (docs/ros2.md).
+``plan/view`` is for people to look at, and moves nothing.
 """
 
 from __future__ import annotations
@@ -13,10 +14,12 @@ from pydantic import Field
 
 from wire.base import Record
 from wire.bounded_types import Code, Count, Name, Seconds, Text
-from wire.geometry import MAX_SPEED_MPS, MAX_TURN_RADPS, Pose2
+from wire.geometry import MAX_SPEED_MPS, MAX_TURN_RADPS, Metres, Pose2
 
 UNASKED_S: Final = 0.5
 """A planner that says nothing for so long wants nothing; it speaks twenty times a second."""
+MAX_SHOWN: Final = 256
+"""Points of a way, and places."""
 Nav2Phase = Literal["idle", "sent", "driving", "succeeded", "aborted", "cancelled"]
 """``sent``: published, and Nav2 has not named a goal of its own for it yet."""
 
@@ -53,3 +56,25 @@ class Nav2State(Record):
     code: Code | None
     """What keeps Nav2 from being heard."""
     detail: Text
+
+
+class PlaceView(Record):
+    """Name a place where it is in ``map``."""
+
+    name: Annotated[str, Field(max_length=64)]
+    x_m: Metres
+    y_m: Metres
+
+
+class PlanView(Record):
+    """Say what the robot is about, for people who look at it with the tools of ROS."""
+
+    seq: Count
+    mode: Name
+    """Of the bridge."""
+    held: Text
+    """What holds the robot; empty where nothing does."""
+    mission: Name | None
+    path: Annotated[tuple[tuple[Metres, Metres], ...], Field(max_length=MAX_SHOWN)]
+    """The way of the leg that is driven, in ``map`` [m]; empty while standing is wanted."""
+    places: Annotated[tuple[PlaceView, ...], Field(max_length=MAX_SHOWN)]

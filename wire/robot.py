@@ -24,7 +24,7 @@ from wire.imu_config import ImuConfig
 from wire.lidar_config import LidarConfig
 from wire.margins import OBSTACLE_MARGIN_M
 from wire.plain_file import read_plain_file
-from wire.ros2_config import Ros2Config, wrong_camera_topic, wrong_ros2
+from wire.ros2_config import FORMER_CODE, Ros2Config, explain_former_keys, wrong_ros2
 from wire.trial_record import TrialRecord, wiring_of
 
 if TYPE_CHECKING:
@@ -157,12 +157,7 @@ class RobotDescription(Record):
     @model_validator(mode="after")
     def _ros2_is_whole(self) -> RobotDescription:
         parts = (self.ros2, self.drive.kind, self.lidar.kind, self.camera.kind)
-        wrong = "; ".join(
-            (
-                *wrong_ros2(*parts, has_imu=self.inputs.imu),
-                *wrong_camera_topic(self.ros2, self.camera.kind, self.camera.topic),
-            )
-        )
+        wrong = "; ".join(wrong_ros2(*parts))
         if wrong:
             raise ValueError(wrong)
         return self
@@ -237,7 +232,11 @@ def load_robot(path: Path) -> RobotDescription:
     text = ""
     try:
         text = read_plain_file(path, MOST_BYTES).decode("utf-8")
-        return RobotDescription.model_validate(tomllib.loads(text), strict=True)
+        raw = tomllib.loads(text)
+        former = explain_former_keys(raw)
+        if former is not None:
+            raise ConfigError(FORMER_CODE, f"{path}: {former}")
+        return RobotDescription.model_validate(raw, strict=True)
     except OSError as error:
         raise ConfigError("robot_toml_missing", f"{path}: {error.strerror}") from None
     except ValidationError as error:

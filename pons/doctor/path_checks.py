@@ -15,6 +15,7 @@ from planner.settings import find_exposed
 from planner.site import Site, SiteError
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.launch_checks import MIN_FREE_BYTES
+from pons.launch_words import chinese_cure
 from pons.running import describe_robot, find_robots
 from wire import ConfigError, RobotDescription, load_robot
 from wire.doors import DOORS
@@ -33,7 +34,8 @@ def robot(path: Path) -> tuple[HealthFinding, RobotDescription]:
         described = load_robot(path)
     except ConfigError as wrong:
         fix = BilingualWords(
-            "mend the file; `pons up` refuses it as it is", "请修正该文件，否则无法启动"
+            "mend the file; `pons up` refuses it as it is",
+            chinese_cure(str(wrong)) or "请修正该文件，否则无法启动",
         )
         return fail("robot", BilingualWords(str(wrong), str(wrong)), fix), RobotDescription()
     kind = described.drive.kind

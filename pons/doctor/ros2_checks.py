@@ -1,21 +1,16 @@
-"""Check a ROS 2 base: what its process says, or, where none runs, what server and graph say."""
+"""Check a ROS 2 base: what its process says, or, where none runs, what the robot's node says."""
 
 from __future__ import annotations
 
-import asyncio
 import time
-from ipaddress import ip_address
 from typing import TYPE_CHECKING
-from urllib.parse import urlsplit
 
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from pons.doctor.running_process import hear_state, says_nothing
-from ros2 import BaseLink
 from ros2.pons_ros2.pons_ros2.link import is_loopback
 from ros2.robot_link import RobotLink
 from ros2.ros_base import RosBase
-from ros2.transport_choice import open_transport
-from ros2.trouble import CODES, STARTING, Ros2Trouble
+from ros2.trouble import CODES, Ros2Trouble
 from wire import keys
 from wire.doors import ROS2_COPY_DOOR
 from wire.sockets import Endpoints, is_listening
@@ -28,7 +23,6 @@ if TYPE_CHECKING:
 
 ASK_S = 6.0
 PERIOD_S = 0.01
-_NOBODY = ("ros2_no_server", "ros2_no_router", "ros2_no_dds")
 
 
 def ros2(home: Path, robot: RobotDescription) -> HealthFinding:
@@ -38,10 +32,7 @@ def ros2(home: Path, robot: RobotDescription) -> HealthFinding:
         return ok("ros2", "not used", "未使用")
     if is_listening(Endpoints(home).socket(ROS2_COPY_DOOR)):
         return _hear_process(home, robot, config)
-    if config.node is not None:
-        trouble = _ask_node(robot, config.node)
-    else:
-        trouble = asyncio.run(_ask_graph(robot, config))
+    trouble = _ask_node(robot, config.node)
     return _describe(config, trouble.code if trouble else None, trouble.found if trouble else "")
 
 
@@ -77,55 +68,21 @@ def _ask_node(robot: RobotDescription, locator: str) -> Ros2Trouble | None:
     return trouble
 
 
-async def _ask_graph(robot: RobotDescription, config: Ros2Config) -> Ros2Trouble | None:
-    """Dial the server as the process would, and listen for some seconds."""
-    link = BaseLink(robot, "doctor")
-    connection = open_transport(config, link, lambda _: None)
-    reading = asyncio.create_task(connection.serve())
-    end_s = time.monotonic() + ASK_S
-    trouble: Ros2Trouble | None = Ros2Trouble(STARTING, f"{config.peer}: not dialled")
-    while trouble is not None and time.monotonic() < end_s:
-        await asyncio.sleep(PERIOD_S)
-        now_s = time.monotonic()
-        for request in link.due(now_s):
-            await connection.send(request)
-        trouble = link.judge(now_s)
-        if trouble is not None and trouble.code in _NOBODY:
-            break
-    reading.cancel()
-    await asyncio.gather(reading, return_exceptions=True)
-    return trouble
-
-
-def open_beyond_loopback(config: Ros2Config) -> bool:
-    """Return whether others than this computer reach the transport; it asks for no password."""
-    if config.node is not None:
-        return not is_loopback(config.node)
-    if config.transport == "dds":
-        return config.interface != "lo"
-    place = config.router if config.transport == "zenoh" else config.url or ""
-    host = urlsplit(place.replace("tcp/", "tcp://", 1)).hostname or ""
-    try:
-        return not ip_address(host).is_loopback
-    except ValueError:
-        return host != "localhost"
-
-
 def _describe(config: Ros2Config, code: str | None, found: str) -> HealthFinding:
     if code is None:
-        if open_beyond_loopback(config):
+        if not is_loopback(config.node):
             return warn(
                 "ros2",
                 BilingualWords(
-                    f"{config.peer} and its base are heard, and open to all on that network",
-                    f"{config.peer}：底盘正常，但该网络中的所有人都可访问",
+                    f"{config.node} and its base are heard, and by all on that network",
+                    f"{config.node}：底盘正常，但该网络中的所有人都可访问",
                 ),
                 BilingualWords(
-                    "a VPN or `ssh -L`, and a key for the relay (docs/ros2.md)",
-                    "请使用 VPN 或 `ssh -L`，并为中继节点设置密钥（docs/ros2.md）",
+                    "commands take its key; `ssh -L` or a VPN hides the rest (docs/ros2.md)",
+                    "命令需用密钥签名；如需隐藏其余内容请使用 `ssh -L` 或 VPN（docs/ros2.md）",
                 ),
             )
-        return ok("ros2", f"{config.peer} and its base are heard", f"{config.peer}：底盘正常")
+        return ok("ros2", f"{config.node} and its base are heard", f"{config.node}：底盘正常")
     words = f"{code}: {found.split(';', 1)[0]}"
     english, chinese = CODES.get(code, ("see docs/ros2.md", "请查看 docs/ros2.md"))
     return fail("ros2", BilingualWords(words, words), BilingualWords(english, chinese))

@@ -3,8 +3,8 @@
 ``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
 ``pons robot try [--robot FILE]`` turns the wheels, off the ground (docs/robot-try.md).
-``pons robot relay`` prints the node that a robot of ROS 2 runs, ``pons robot mount`` where its
-lidar sits (docs/ros2.md).
+``pons robot node FOLDER`` writes the package that a robot of ROS 2 runs, ``pons robot mount``
+prints where its lidar sits (docs/ros2.md).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from devices.camera_listing import list_cameras
 from devices.port_listing import describe_port, find_port_takers, list_ports
 from pons.command_words import load_words
 from pons.robot.port_finder import question_ports
-from pons_assets import RELAY, ROS2_NODE
+from pons_assets import ROS2_NODE
 from wire import load_robot
 
 if TYPE_CHECKING:
@@ -33,9 +33,15 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 EXIT_FOUND, EXIT_NOTHING = 0, 3
+ZENOH: Final = "eclipse-zenoh>=1.10,<1.11"
 HEAD: Final = "# for robot.toml:"
 CODES: Final = load_words("pons.robot")["ports"]
 """What is said of a port, in English and Chinese; ``detail`` is the finding's."""
+RELAY_GONE: Final = (
+    "relay_gone: it is a part of the package pons_ros2 now: `pons robot node FOLDER` writes that "
+    "(docs/ros2.md)\n"
+    "中继节点现在是 pons_ros2 软件包的一部分：请用 `pons robot node FOLDER` 写出（docs/ros2.md）"
+)
 _TAKERS: Final = {
     "brltty": "port_brltty",
     "gpsd": "port_gpsd",
@@ -58,7 +64,6 @@ def parser() -> argparse.ArgumentParser:
     find.add_argument("--json", action="store_true")
     tried = acts.add_parser("try", help="turn the wheels, off the ground, and prove that they stop")
     tried.add_argument("--robot", type=Path, metavar="FILE", help="robot.toml (PONS_ROBOT)")
-    acts.add_parser("relay", help="print the node that a robot of ROS 2 runs: > relay.py")
     node = acts.add_parser(
         "node", help="write the ROS 2 package that a robot runs into a new folder"
     )
@@ -78,24 +83,25 @@ def _write_node(folder: Path) -> int:
         )
         print(f"无法写入 {folder}：请指定一个尚不存在的文件夹", file=sys.stderr)
         return EXIT_NOTHING
-    print(f"{folder}: on the robot there `colcon build`, and `pip install eclipse-zenoh`")
+    print(f"{folder}: on the robot there `colcon build`, `pip install '{ZENOH}'`, and")
+    print("ros2 launch pons_ros2 pons.launch.py (docs/ros2.md)")
     return EXIT_FOUND
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:
     """Be ``pons robot``; 0 where a device was recognised or all was proved, 3 where not."""
+    if words[:1] == ["relay"]:
+        print(RELAY_GONE, file=sys.stderr)
+        return EXIT_NOTHING
     said = parser().parse_args(words)
     if said.act == "try":
         from pons.robot.trial_command import run_trial
 
         return run_trial(replace(settings, robot=said.robot) if said.robot else settings)
-    if said.act == "relay":
-        sys.stdout.write(RELAY.read_text("utf-8"))
-        return EXIT_FOUND
     if said.act == "node":
         return _write_node(said.folder)
     if said.act == "mount":
-        from pons.ros2_topics import print_mounting
+        from pons.ros2_robot import print_mounting
 
         return print_mounting(load_robot(settings.robot))
     entries = [describe_port(path) for path in said.port] if said.port else list_ports()

@@ -53,7 +53,7 @@ def _serve(run: SensorRun) -> None:
 
 def name_of(config: CameraConfig) -> str:
     """Return which camera it is, without a password."""
-    named = config.device or config.topic or without_password(config.url or "") or config.serial
+    named = config.device or without_password(config.url or "") or config.serial
     return named or "the first"
 
 

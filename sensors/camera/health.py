@@ -62,8 +62,8 @@ CODES: dict[str, tuple[str, str]] = {
         "请减小 width_px 和 height_px；ros2 摄像头请在其驱动中设置",
     ),
     "camera_picture_unreadable": (
-        "camera.topic must carry whole JPEG or PNG pictures of 8 bits: try rqt_image_view",
-        "camera.topic 必须是完整的 8 位 JPEG 或 PNG 图像：请用 rqt_image_view 查看",
+        "the topic must carry whole JPEG or PNG pictures of 8 bits: try rqt_image_view",
+        "该话题必须是完整的 8 位 JPEG 或 PNG 图像：请用 rqt_image_view 查看",
     ),
 }
 """What cures each, in English and Chinese."""

@@ -37,7 +37,7 @@ def open_source(config: CameraConfig, ros2: Ros2Config | None = None) -> Picture
 
     Args:
         config: [camera].
-        ros2: [ros2], whose graph a camera of kind "ros2" is heard on.
+        ros2: [ros2], whose node passes on the pictures of a camera of kind "ros2".
 
     Raises:
         CameraTrouble: it can't be opened now.
@@ -47,13 +47,9 @@ def open_source(config: CameraConfig, ros2: Ros2Config | None = None) -> Picture
 
         return RealsenseSource(config)
     if config.kind == "ros2" and ros2 is not None:
-        if ros2.node is not None:
-            from sensors.camera.robot_source import RobotSource
-
-            return RobotSource(config, ros2.node)
         from sensors.camera.ros2_source import Ros2Source
 
-        return Ros2Source(config, ros2)
+        return Ros2Source(config, ros2.node)
     if config.kind == "uvc":
         return _open_device(config)
     return _open_stream(config)

@@ -5,7 +5,6 @@ The simulated robot is their body.
 
 from sim.twin.lidar import LidarTwin
 from sim.twin.ros2 import Ros2Twin
-from sim.twin.ros2_node import Ros2NodeTwin
 from sim.twin.twin import FIRMWARES, DriveTwin
 
-__all__ = ["FIRMWARES", "DriveTwin", "LidarTwin", "Ros2NodeTwin", "Ros2Twin"]
+__all__ = ["FIRMWARES", "DriveTwin", "LidarTwin", "Ros2Twin"]

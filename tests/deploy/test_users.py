@@ -132,7 +132,7 @@ def test_each_user_says_what_its_groups_let_it_and_takes_nobodys_place(
 def test_what_the_planners_user_may_say_is_what_the_bridge_lets_anybody_ask() -> None:
     """The law that the table above shows, from the files alone; and poses: its own, and a goal."""
     said = {key for door in DOORS for key in expected("pons-planner", door)}
-    beside = {"loc/hint", "nav2/goal"}
+    beside = {"loc/hint", "nav2/goal", "plan/view"}
     assert said == {key.path for key in BRIDGE_DOOR.hears} | beside
     assert all(key.startswith(("cmd/", "op/")) for key in said - beside - {"trial/order"})
     assert "op/estop_link" not in said

@@ -91,7 +91,7 @@ def test_the_wheel_holds_the_product_and_nothing_of_the_workshop(wheel: Path) ->
     assert not [name for name in names if "/test_" in name or "__pycache__" in name]
     assets = {
         "page/index.html", "prompts/plan.md", "sites/home/map.pgm", "sites/two_room/map.yaml",
-        "robot.toml", "requirements.lock", "ros2_relay.py",
+        "robot.toml", "requirements.lock", "pons_ros2/package.xml",
     }  # fmt: skip
     assert {f"pons_assets/{name}" for name in assets} <= set(names)
     assert [name for name in names if name.endswith(".onnx")]

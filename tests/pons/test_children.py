@@ -35,6 +35,7 @@ def test_the_simulated_camera_waits_until_the_rest_is_ready(
 
 
 MCU = {"kind": "pons_mcu", "port": "/dev/x", "ticks_per_turn": 4096}
+ROS2 = {"node": "tcp/10.0.0.5:7448"}
 LD19 = {"kind": "ld19", "port": "/dev/y"}
 
 
@@ -78,11 +79,10 @@ def test_a_camera_of_metal_has_its_process_and_where_a_twin_plays_is_drawn(
     keys = {
         "uvc": {"device": "/dev/video0"},
         "stream": {"url": "rtsp://10.0.0.9/1"},
-        "ros2": {"topic": "/camera/compressed"},
     }
-    base = {"drive": MCU}
+    base: dict[str, dict[str, object]] = {"drive": MCU}
     if kind == "ros2":
-        base = {"drive": {"kind": "ros2"}, "ros2": {"transport": "dds"}, "inputs": {"imu": False}}
+        base = {"drive": {"kind": "ros2"}, "ros2": dict(ROS2), "inputs": {"imu": False}}
     robot = RobotDescription.model_validate(base | {"camera": {"kind": kind, **keys.get(kind, {})}})
     settings = LaunchSettings(
         tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
@@ -109,9 +109,6 @@ def test_a_gyro_on_i2c_has_its_process_where_metal_counts_on_it(
         assert found["imu"][0] == "sensors.imu"
 
 
-ROS2 = {"url": "ws://10.0.0.5:9090", "scan": "/scan", "imu": "/imu"}
-
-
 @pytest.mark.parametrize(
     ("twin", "expected"),
     [
@@ -119,7 +116,7 @@ ROS2 = {"url": "ws://10.0.0.5:9090", "scan": "/scan", "imu": "/imu"}
         (True, ["sim", "ros2", *ROBOT[1:], "camera"]),
     ],
 )
-def test_a_base_of_ros2_has_its_process_and_its_twin_a_server_that_this_dials(
+def test_a_base_of_ros2_has_its_process_and_its_twin_a_node_that_this_dials(
     tmp_path: Path, twin: bool, expected: list[str]
 ) -> None:
     robot = RobotDescription.model_validate(

@@ -6,45 +6,52 @@ import json
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from pons import ros2_robot, site
 from pons.doctor import ros2_checks
 from pons.doctor.finding import HealthVerdict
 from pons.robot.command import run
 from pons.robot_processes import free_port
-from pons.ros2_robot import fetch_map, fetch_mounting
+from pons.ros2_robot import fetch_map, print_mounting
 from pons.settings import LaunchSettings
 from ros2.pons_ros2.pons_ros2.link import PlannerLink
 from ros2.trouble import TopicFailure
 from tests.ros2.test_mounting import transform
 from tests.ros2.words import odometry, robot, scan, state
+from wire import RobotDescription
 
 MAP = {
-    "topic": "/map",
-    "header": {"frame_id": "map"},
-    "info": {
-        "resolution": 0.1, "width": 3, "height": 2,
-        "origin": {
-            "position": {"x": -3.0, "y": 0.0},
-            "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0},
-        },
-    },
+    "topic": "/map", "resolution_m": 0.1, "width": 3, "height": 2, "x_m": -3.0, "y_m": 0.0,
+    "yaw_rad": 0.0,
 }  # fmt: skip
 
 
 @pytest.fixture
-def locator() -> Iterator[str]:
+def frames() -> list[dict[str, Any]]:
+    """Return what the robot's /tf_static says; a test may say something else."""
+    return [transform("base_link", "laser", (0.12, -0.03, 0.2), yaw_rad=1.5)]
+
+
+@pytest.fixture
+def head() -> dict[str, Any]:
+    """Return what the robot says of its map; a test may say something else."""
+    return dict(MAP)
+
+
+@pytest.fixture
+def locator(frames: list[dict[str, Any]], head: dict[str, Any]) -> Iterator[str]:
     """Return where a robot says all that it knows, again and again."""
     where = f"tcp/127.0.0.1:{free_port()}"
     link, ending = PlannerLink(where, has_key=False), threading.Event()
-    frames = [transform("base_link", "laser", (0.12, -0.03, 0.2), yaw_rad=1.5)]
 
     def say() -> None:
         seq = 0
         while not ending.wait(0.02):
             seq += 1
-            link.say_bytes("map", MAP, bytes([0, 100, 255, 0, 0, 0]))
+            link.say_bytes("map", head, bytes([0, 100, 255, 0, 0, 0]))
             link.say("scan", scan(seq / 50).decode())
             link.say("frames", frames)
             link.say("state", state(seq / 50, seq).decode())
@@ -65,10 +72,56 @@ def test_a_map_is_read_as_every_map_is(locator: str) -> None:
         fetch_map(locator, "/other")
 
 
-def test_where_the_lidar_sits_is_found_by_the_frames(locator: str) -> None:
-    found, frame = fetch_mounting(locator)
-    assert (frame, found.base) == ("laser", "base_link")
-    assert (found.x_m, found.y_m, found.yaw_rad) == pytest.approx((0.12, -0.03, 1.5))
+def test_a_map_that_the_node_could_not_read_is_told(locator: str, head: dict[str, Any]) -> None:
+    head |= {"code": "ros2_unreadable", "found": "/map: info.origin.orientation is tilted"}
+    with pytest.raises(TopicFailure, match="tilted"):
+        fetch_map(locator, "/map")
+
+
+def test_where_the_lidar_sits_is_printed_as_a_part_of_robot_toml(
+    locator: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert print_mounting(robot(node=locator)) == 0
+    printed = capsys.readouterr().out
+    assert '[lidar]\nkind = "ros2"\nx_m = 0.120\ny_m = -0.030\nyaw_rad = 1.5000\n' in printed
+    assert "# robot.toml has (0, 0, 0): 0.120 m off" in printed
+
+
+def test_a_lidar_that_hangs_head_down_is_refused_with_the_cure(
+    locator: str,
+    frames: list[dict[str, Any]],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(ros2_robot, "FRAMES_S", 1.0)
+    frames[:] = [transform("base_link", "laser", roll_rad=3.14159)]
+    assert print_mounting(robot(node=locator)) == 3
+    refused = capsys.readouterr().err
+    assert "ros2_no_mounting" in refused
+    assert "head down" in refused
+    assert "robot_state_publisher" in refused
+
+
+def test_without_a_robot_that_can_be_asked_it_says_why(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ros2_robot, "FRAMES_S", 0.2)
+    assert print_mounting(RobotDescription()) == 3
+    assert "ros2_not_configured" in capsys.readouterr().err
+    assert print_mounting(robot(node=f"tcp/127.0.0.1:{free_port()}")) == 3
+    assert "ros2_no_node" in capsys.readouterr().err
+
+
+def test_a_site_is_not_imported_from_a_robot_that_is_none_of_ros_2(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "robot.toml"
+    path.write_text("")
+    settings = LaunchSettings(tmp_path, path, tmp_path, "127.0.0.1", 1)
+    assert site.run(settings, ["import", "ros2:/map", "mine"]) == 3
+    said = capsys.readouterr().err
+    assert "ros2_not_configured" in said
+    assert "请添加 ros2 部分" in said
 
 
 def test_the_doctor_hears_the_node_and_says_where_nobody_answers(
@@ -94,3 +147,13 @@ def test_the_package_is_written_into_a_new_folder_alone(
         assert (folder / name).is_file(), name
     assert run(settings, ["node", str(folder)]) == 3
     assert "node_not_written" in capsys.readouterr().err
+
+
+def test_who_asks_for_the_relay_is_told_of_the_package(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 1)
+    assert run(settings, ["relay"]) == 3
+    refused = capsys.readouterr().err
+    assert "relay_gone" in refused
+    assert refused.count("pons robot node FOLDER") == 2

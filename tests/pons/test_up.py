@@ -79,13 +79,17 @@ def test_a_ros2_robot_that_is_not_reached_is_told_at_once_and_keeps_its_page(
         up = supervisor(tmp_path, planner.port, load_robot(CHECKOUT / "robots" / ROS2))
         (ros2,) = (child for child in up._children if child.name == "ros2")
         ros2.log.parent.mkdir(parents=True, exist_ok=True)
-        ros2.log.write_text("12:00 ros2 WARNING ros2_no_server: ws://127.0.0.1:9090: refused\n")
+        ros2.log.write_text(
+            "12:00 ros2 WARNING ros2_no_node: nobody answers at tcp/127.0.0.1:7448\n"
+        )
         up._greet(100.0, 100.0)
-        assert "ros2_no_server" not in capsys.readouterr().out
+        assert "ros2_no_node" not in capsys.readouterr().out
         up._greet(100.0 + UNREACHED_TOLD_S, 100.0)
         up._greet(101.0 + UNREACHED_TOLD_S, 100.0)
         told = capsys.readouterr().out
-        assert told.count("robot_unreached: ros2_no_server: ws://127.0.0.1:9090: refused") == 1
+        assert (
+            told.count("robot_unreached: ros2_no_node: nobody answers at tcp/127.0.0.1:7448") == 1
+        )
         assert up._settings.url in told
         up._greet(101.0 + READY_LIMIT_S, 100.0)  # raises nothing: the page stays
 

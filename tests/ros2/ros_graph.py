@@ -1,48 +1,35 @@
-"""Be a part of a true ROS 2 graph, run by a Python that has rclpy: base, lidar, rosbridge server.
+"""Be a part of a true ROS 2 graph, run by a Python that has rclpy: base, lidar, map, Nav2.
 
 ``base`` drives for ever by the last twist that it got, as a base without a dead-man does, and says
 odometry at 50 Hz, and each twist as a line of JSON on stdout. ``lidar`` says three beams: too near
-to measure (minus infinity), no return, 1.5 m. ``map`` says a map once and keeps it. ``body``
-drives a simulated body behind the twin's server, and says what it senses. ``nav2`` is a small
-stand-in for Nav2 (small_nav2), which begins at a pose and knows points to pass. ``bridge``
-speaks rosbridge's protocol for the topics that Pons uses, on true publishers and subscriptions.
-Knows nothing of Pons.
+to measure (minus infinity), no return, 1.5 m. ``map`` says a map once and keeps it. ``body PORT``
+drives the body of a simulator's twin, which listens there, and says what it senses. ``nav2`` is a
+small stand-in for Nav2 (small_nav2), which begins at a pose and knows points to pass. ``viewer``
+says what RViz would show, and the diagnostics, as lines of JSON.
+Knows nothing of Pons but the twin's words.
 """
 
 from __future__ import annotations
 
-import asyncio
-import base64
 import json
 import math
 import sys
-import threading
 import time
-from typing import Any, ClassVar
+from typing import Any
 
 import rclpy
 import small_nav2  # type: ignore[import-not-found]  # beside this file, where its Python looks
 from action_msgs.msg import GoalStatus, GoalStatusArray
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, Twist, TwistStamped
-from nav_msgs.msg import OccupancyGrid, Odometry
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
-from sensor_msgs.msg import CompressedImage, Image, Imu, LaserScan
+from sensor_msgs.msg import Imu, LaserScan
 from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
 
-KINDS = {
-    "action_msgs/msg/GoalStatusArray": GoalStatusArray,
-    "geometry_msgs/msg/PoseStamped": PoseStamped,
-    "geometry_msgs/msg/Twist": Twist,
-    "geometry_msgs/msg/TwistStamped": TwistStamped,
-    "nav_msgs/msg/Odometry": Odometry,
-    "nav_msgs/msg/OccupancyGrid": OccupancyGrid,
-    "sensor_msgs/msg/CompressedImage": CompressedImage,
-    "sensor_msgs/msg/Image": Image,
-    "sensor_msgs/msg/Imu": Imu,
-    "sensor_msgs/msg/LaserScan": LaserScan,
-    "std_msgs/msg/String": String,
-}
+KINDS = {"geometry_msgs/msg/Twist": Twist, "geometry_msgs/msg/TwistStamped": TwistStamped}
 PERIOD_S = 0.02
 KEPT = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -92,74 +79,80 @@ class Lidar(Node):
 
 
 class Body(Node):
-    """Be the driver of a base whose wheels, lidar and gyro a simulator plays (sim.twin).
+    """Be the driver of a base whose wheels, lidar and gyro a simulator plays (sim.twin.ros2).
 
-    What moves it is cmd_vel alone, by the last twist; the simulator's own relay is its firmware.
+    What moves it is cmd_vel alone, by the last twist; the simulator's own dead-man is its firmware.
     """
 
-    SENSED: ClassVar = {"/odom": Odometry, "/scan": LaserScan, "/imu": Imu}
+    def __init__(self, port: str) -> None:
+        import zenoh
 
-    def __init__(self, port: int) -> None:
         super().__init__("body")
         self.v = self.w = 0.0
         self.seq, self.ahead_s = 0, math.inf
-        self.port = port
-        self.says = {
-            topic: self.create_publisher(
-                kind, topic, qos_profile_sensor_data if topic == "/scan" else 10
-            )
-            for topic, kind in self.SENSED.items()
-        }
+        self.odom = self.create_publisher(Odometry, "/odom", 10)
+        self.scans = self.create_publisher(LaserScan, "/scan", qos_profile_sensor_data)
+        self.imus = self.create_publisher(Imu, "/imu", 10)
         self.create_subscription(TwistStamped, "/cmd_vel", self.hear, 10)
-        threading.Thread(target=self.serve, daemon=True).start()
+        config = zenoh.Config()
+        config.insert_json5("connect/endpoints", json.dumps([f"tcp/127.0.0.1:{port}"]))
+        config.insert_json5("connect/timeout_ms", "-1")
+        config.insert_json5("scouting/multicast/enabled", "false")
+        self.session = zenoh.open(config)
+        self.commands = self.session.declare_publisher("pons/ros2/command", express=True)
+        tells = {"state": self.obey, "odom": self.tell_pose, "scan": self.tell_scan,
+                 "imu": self.tell_turn}  # fmt: skip
+        self.heard = [self.listen(name, tell) for name, tell in tells.items()]
+
+    def listen(self, name: str, tell: Any) -> Any:
+        return self.session.declare_subscriber(
+            f"pons/ros2/{name}", lambda sample: tell(json.loads(sample.payload.to_bytes()))
+        )
 
     def hear(self, message: Any) -> None:
         self.v, self.w = message.twist.linear.x, message.twist.angular.z
 
-    def serve(self) -> None:
-        from websockets.sync.client import connect
-
-        with connect(f"ws://127.0.0.1:{self.port}", compression=None, max_size=None) as socket:
-            for topic in ("/pons/state", *self.SENSED):
-                socket.send(json.dumps({"op": "subscribe", "topic": topic}))
-            for frame in socket:
-                said = json.loads(frame)
-                if said.get("topic") == "/pons/state":
-                    socket.send(self.command(json.loads(said["msg"]["data"])))
-                elif said.get("topic") in self.says:
-                    self.say(said["topic"], said["msg"])
-
-    def command(self, state: dict[str, Any]) -> str:
-        """Return what the simulator's firmware is to do; note how far our clock is ahead of it."""
+    def obey(self, state: dict[str, Any]) -> None:
+        """Say what the simulator's firmware is to do; note how far our clock is ahead of it."""
         self.ahead_s = min(self.ahead_s, self.get_clock().now().nanoseconds * 1e-9 - state["ros"])
         self.seq += 1
         words = {
             "boot": "body", "seq": self.seq, "relay": state["relay"], "seen": state["t"],
             "ttl": 0.5, "on": True, "v": self.v, "w": self.w,
         }  # fmt: skip
-        message = {"data": json.dumps(words)}
-        return json.dumps({"op": "publish", "topic": "/pons/command", "msg": message})
+        self.commands.put(json.dumps(words).encode())
 
-    def say(self, topic: str, raw: dict[str, Any]) -> None:
-        if math.isfinite(self.ahead_s):
-            message = self.SENSED[topic]()
-            fill(message, raw)
-            stamp = raw["header"]["stamp"]
-            stamp_s = stamp["sec"] + stamp["nanosec"] * 1e-9 + self.ahead_s
-            message.header.stamp.sec = int(stamp_s)
-            message.header.stamp.nanosec = int((stamp_s % 1.0) * 1e9)
-            self.says[topic].publish(message)
+    def stamp(self, message: Any, raw: dict[str, Any], frame: str) -> Any:
+        stamp_s = raw["stamp_s"] + (self.ahead_s if math.isfinite(self.ahead_s) else 0.0)
+        message.header.frame_id = frame
+        message.header.stamp.sec = int(stamp_s)
+        message.header.stamp.nanosec = int((stamp_s % 1.0) * 1e9)
+        return message
 
+    def tell_pose(self, raw: dict[str, Any]) -> None:
+        message = self.stamp(Odometry(), raw, "odom")
+        pose, twist, half = message.pose.pose, message.twist.twist, raw["yaw_rad"] / 2
+        pose.position.x, pose.position.y = raw["x_m"], raw["y_m"]
+        pose.orientation.z, pose.orientation.w = math.sin(half), math.cos(half)
+        twist.linear.x, twist.angular.z = raw["v_mps"], raw["w_radps"]
+        self.odom.publish(message)
 
-def fill(message: Any, raw: dict[str, Any]) -> None:
-    """Put JSON into a message; null is no return."""
-    for name, value in raw.items():
-        if isinstance(value, dict):
-            fill(getattr(message, name), value)
-        elif isinstance(value, list):
-            setattr(message, name, [math.inf if one is None else float(one) for one in value])
-        elif name not in ("sec", "nanosec"):
-            setattr(message, name, value)
+    def tell_scan(self, raw: dict[str, Any]) -> None:
+        message = self.stamp(LaserScan(), raw, "laser")
+        message.angle_min, message.angle_increment = (
+            raw["angle_min_rad"], raw["angle_increment_rad"],
+        )  # fmt: skip
+        message.time_increment = raw["time_increment_s"]
+        message.range_min, message.range_max = raw["range_min_m"], raw["range_max_m"]
+        message.ranges = [math.inf if one is None else one for one in raw["ranges_m"]]
+        self.scans.publish(message)
+
+    def tell_turn(self, raw: dict[str, Any]) -> None:
+        message = self.stamp(Imu(), raw, "imu_link")
+        message.angular_velocity.z = raw["yaw_rate_radps"]
+        accel = message.linear_acceleration
+        accel.x, accel.y, accel.z = raw["accel_x_mps2"], raw["accel_y_mps2"], 9.81
+        self.imus.publish(message)
 
 
 class Nav2(Node):
@@ -187,14 +180,9 @@ class Nav2(Node):
 
     def hear_goal(self, message: Any) -> None:
         at, turn = message.pose.position, message.pose.orientation
-        raw = {
-            "header": {"frame_id": message.header.frame_id},
-            "pose": {
-                "position": {"x": at.x, "y": at.y},
-                "orientation": {"z": turn.z, "w": turn.w},
-            },
-        }
-        self.nav2.hear(raw, time.monotonic(), (self.pose[0], self.pose[1]))
+        assert message.header.frame_id == "map"
+        goal = at.x, at.y, 2.0 * math.atan2(turn.z, turn.w)
+        self.nav2.hear(goal, time.monotonic(), (self.pose[0], self.pose[1]))
         print(json.dumps({"goal": self.nav2.goals[-1], "pose": self.pose}), flush=True)
 
     def turn(self) -> None:
@@ -234,111 +222,47 @@ class Map(Node):
         self.maps.publish(grid)
 
 
-class Bridge(Node):
-    """Speak rosbridge to one client at a time."""
+class Viewer(Node):
+    """Say what is to be seen; it may come late."""
 
     def __init__(self) -> None:
-        super().__init__("rosbridge")
-        self.said: dict[str, Any] = {}
-        self.loop: asyncio.AbstractEventLoop | None = None
-        self.socket: Any = None
-        self.heard: dict[str, Any] = {}
+        super().__init__("viewer")
+        self.create_subscription(Path, "/pons/path", self.hear_path, KEPT)
+        self.create_subscription(MarkerArray, "/pons/markers", self.hear_markers, KEPT)
+        self.create_subscription(
+            String, "/pons/status", lambda message: self.say(status=message.data), KEPT
+        )
+        self.create_subscription(DiagnosticArray, "/diagnostics", self.hear_diagnostics, 10)
 
-    def obey(self, raw: dict[str, Any]) -> dict[str, Any] | None:
-        operation, topic = raw["op"], str(raw.get("topic"))
-        if operation == "advertise" and topic not in self.said:
-            self.said[topic] = self.create_publisher(KINDS[raw["type"]], topic, 10)
-        elif operation == "publish":
-            self.said[topic].publish(made_of(raw["msg"], self.said[topic].msg_type))
-        elif operation == "unadvertise":
-            self.destroy_publisher(self.said.pop(topic))
-        elif operation == "subscribe" and topic not in self.heard:
-            kind = KINDS[raw["type"]]
-            infos = self.get_publishers_info_by_topic(topic)
-            kept = any(one.qos_profile.durability == KEPT.durability for one in infos)
-            self.heard[topic] = self.create_subscription(
-                kind, topic, lambda message: self.tell(topic, message),
-                KEPT if kept else qos_profile_sensor_data,  # as rosbridge_suite does
-            )  # fmt: skip
-        elif operation == "call_service":
-            asked = raw["args"]["topic"]
-            known = dict(self.get_topic_names_and_types())
-            values = {"type": (known.get(asked) or [""])[0]}
-            return {"op": "service_response", "id": raw["id"], "service": raw["service"],
-                    "values": values, "result": True}  # fmt: skip
-        return None
+    def say(self, **what: Any) -> None:
+        print(json.dumps(what), flush=True)
 
-    def tell(self, topic: str, message: Any) -> None:
-        socket, loop = self.socket, self.loop
-        if socket is not None and loop is not None:
-            frame = json.dumps({"op": "publish", "topic": topic, "msg": as_json(message)})
-            asyncio.run_coroutine_threadsafe(socket.send(frame), loop)
+    def hear_path(self, message: Any) -> None:
+        at = [[one.pose.position.x, one.pose.position.y] for one in message.poses]
+        self.say(path=at, frame=message.header.frame_id)
 
-    async def serve(self, port: int) -> None:
-        from websockets.asyncio.server import serve
+    def hear_markers(self, message: Any) -> None:
+        self.say(markers=[one.text for one in message.markers[1:]])
 
-        async def attend(socket: Any) -> None:
-            self.socket = socket
-            async for frame in socket:
-                answer = self.obey(json.loads(frame))
-                if answer is not None:
-                    await socket.send(json.dumps(answer))
-
-        self.loop = asyncio.get_running_loop()
-        async with serve(attend, "127.0.0.1", port, compression=None):
-            print("ready", flush=True)
-            await asyncio.Event().wait()
-
-
-def made_of(raw: dict[str, Any], kind: Any) -> Any:
-    """Return a string, a pose or a twist."""
-    if kind is String:
-        return String(data=raw["data"])
-    if kind is PoseStamped:
-        pose = PoseStamped()
-        fill(pose.pose, raw["pose"])
-        pose.header.frame_id = raw["header"]["frame_id"]
-        return pose
-    message, twist = kind(), raw.get("twist", raw)
-    inner = getattr(message, "twist", message)
-    inner.linear.x, inner.angular.z = twist["linear"]["x"], twist["angular"]["z"]
-    return message
-
-
-def as_json(value: Any) -> Any:
-    """Return a message as rosbridge writes it: what is not finite is null."""
-    if hasattr(value, "get_fields_and_field_types"):
-        return {name: as_json(getattr(value, name)) for name in value.get_fields_and_field_types()}
-    if "B" in (getattr(value, "typecode", None), getattr(getattr(value, "dtype", None), "char", 0)):
-        return base64.b64encode(value.tobytes()).decode()  # as rosbridge_suite does
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, str | int | bool):
-        return value
-    return [as_json(one) for one in value]
+    def hear_diagnostics(self, message: Any) -> None:
+        self.say(diagnostics={one.name: one.message for one in message.status})
 
 
 def main(arguments: list[str]) -> None:
     rclpy.init()
-    if arguments[0] == "base":
-        rclpy.spin(Base(arguments[1]))
-        return
-    if arguments[0] == "lidar":
-        rclpy.spin(Lidar())
-        return
-    if arguments[0] == "body":
-        rclpy.spin(Body(int(arguments[1])))
-        return
-    if arguments[0] == "map":
-        rclpy.spin(Map())
-        return
-    if arguments[0] == "nav2":
-        numbers = [float(word) for word in arguments[1:]]
-        rclpy.spin(Nav2(numbers[:3], numbers[3:]))
-        return
-    bridge = Bridge()
-    threading.Thread(target=rclpy.spin, args=(bridge,), daemon=True).start()
-    asyncio.run(bridge.serve(int(arguments[1])))
+    kind, numbers = arguments[0], arguments[1:]
+    if kind == "nav2":
+        start, via = numbers[:3], numbers[3:]
+        rclpy.spin(Nav2(list(map(float, start)), list(map(float, via))))
+    else:
+        made: dict[str, Any] = {"base": Base, "lidar": Lidar, "map": Map, "body": Body,
+                                "viewer": Viewer}  # fmt: skip
+        node = made[kind](*numbers)
+        try:
+            rclpy.spin(node)
+        finally:
+            if kind == "body":
+                node.session.close()  # its threads would keep this process
 
 
 if __name__ == "__main__":

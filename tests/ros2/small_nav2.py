@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import atan2, cos, hypot, pi, remainder, sin
+from types import SimpleNamespace as Made
 from typing import Any
 
 ACCEPTED, EXECUTING, SUCCEEDED, CANCELED, ABORTED = 1, 2, 4, 5, 6
@@ -35,13 +36,12 @@ class SmallNav2:
     _left: list[tuple[float, float]] = field(default_factory=list)
     _began_s: float = 0.0
 
-    def hear(self, message: dict[str, Any], now_s: float, here: tuple[float, float]) -> None:
-        """Take a goal; the one before it is aborted."""
+    def hear(
+        self, goal: tuple[float, float, float], now_s: float, here: tuple[float, float]
+    ) -> None:
+        """Take a goal, x and y [m] and yaw [rad]; the one before it is aborted."""
         if self.deaf:
             return
-        assert message["header"]["frame_id"] == "map"
-        position, turn = message["pose"]["position"], message["pose"]["orientation"]
-        goal = position["x"], position["y"], 2.0 * atan2(turn["z"], turn["w"])
         self._end(ABORTED)
         self.goals.append(goal)
         self.statuses.append((len(self.goals), EXECUTING, len(self.goals)))
@@ -87,20 +87,19 @@ class SmallNav2:
         self._end(SUCCEEDED)
         return 0.0, 0.0
 
-    def status_array(self) -> dict[str, Any]:
-        """Return action_msgs/GoalStatusArray, newest first: its order means nothing."""
-        return {
-            "status_list": [
-                {
-                    "goal_info": {
-                        "goal_id": {"uuid": [number] * 16},
-                        "stamp": {"sec": second, "nanosec": 0},
-                    },
-                    "status": status,
-                }
+    def status_array(self) -> Any:
+        """Return what action_msgs/GoalStatusArray holds, newest first: its order means nothing."""
+        return Made(
+            status_list=[
+                Made(
+                    goal_info=Made(
+                        goal_id=Made(uuid=[number] * 16), stamp=Made(sec=second, nanosec=0)
+                    ),
+                    status=status,
+                )
                 for number, status, second in reversed(self.statuses)
             ]
-        }
+        )
 
     def _end(self, status: int) -> None:
         if self.executes:

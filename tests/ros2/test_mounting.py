@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from math import cos, pi, sin
 from typing import Any
 
 import pytest
 
 from ros2.mounting import NoMounting, find_mounting
-from ros2.robot_words import Unreadable
+from ros2.robot_words import FrameWords, Unreadable, read_frames
 
 
 def transform(
@@ -17,15 +18,12 @@ def transform(
 ) -> dict[str, Any]:  # fmt: skip
     """Return one of /tf_static: first a roll, then a yaw."""
     cy, sy, cr, sr = cos(yaw_rad / 2), sin(yaw_rad / 2), cos(roll_rad / 2), sin(roll_rad / 2)
-    rotation = {"x": cy * sr, "y": sy * sr, "z": sy * cr, "w": cy * cr}
-    return {
-        "header": {"frame_id": parent}, "child_frame_id": child,
-        "transform": {"translation": dict(zip("xyz", at, strict=True)), "rotation": rotation},
-    }  # fmt: skip
+    turned = [cy * sr, sy * sr, sy * cr, cy * cr]
+    return {"parent": parent, "child": child, "at_m": list(at), "turned": turned}
 
 
-def said(*transforms: dict[str, Any]) -> list[dict[str, Any]]:
-    return [{"transforms": [one]} for one in transforms]
+def said(*transforms: dict[str, Any]) -> tuple[FrameWords, ...]:
+    return read_frames(json.dumps(transforms).encode())
 
 
 def test_a_chain_adds_up_whichever_message_says_which_part() -> None:
@@ -60,6 +58,7 @@ def test_a_lidar_in_the_bases_own_frame_sits_in_its_middle() -> None:
         ([transform("mast", "laser"), transform("laser", "mast")], "leads to none"),
         ([transform("base_link", "laser", roll_rad=pi)], "head down"),
         ([transform("base_link", "laser", roll_rad=0.5)], "tilted"),
+        ([transform("base_link", "laser") | {"turned": [0.0] * 4}], "is none"),
     ],
 )
 def test_what_says_no_place_is_refused(transforms: list[dict[str, Any]], says: str) -> None:
@@ -70,11 +69,10 @@ def test_what_says_no_place_is_refused(transforms: list[dict[str, Any]], says: s
 @pytest.mark.parametrize(
     "wrong",
     [
-        {}, {"transforms": None}, {"transforms": [{}]}, {"transforms": [7]},
-        {"transforms": [transform("base_link", "laser", (float("nan"), 0.0, 0.0))]},
-        {"transforms": [transform("a", "b") | {"transform": {"translation": {}}}]},
+        7, {}, [7], [{}], [transform("a", "b") | {"at_m": [0.0, 0.0]}],
+        [transform("a", "b", (1e9, 0.0, 0.0))], [transform("a", "b") | {"child": None}],
     ],
 )  # fmt: skip
-def test_what_is_no_transform_is_refused(wrong: dict[str, Any]) -> None:
+def test_what_is_no_transform_is_refused(wrong: Any) -> None:
     with pytest.raises(Unreadable):
-        find_mounting([wrong], "laser")
+        read_frames(json.dumps(wrong).encode())

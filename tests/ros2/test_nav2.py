@@ -1,4 +1,4 @@
-"""The process between Nav2 and the bridge: what comes on its topic is said under a grant."""
+"""The process between Nav2 and the bridge: what comes of Nav2 is said under a grant."""
 
 from __future__ import annotations
 
@@ -12,36 +12,28 @@ from typing import Any
 import pytest
 
 from ros2.nav2 import main
-from sim.twin.rosbridge_server import RosbridgeServer
-from tests.ros2.test_nav2_velocity import TOPIC, twist
+from tests.ros2.bridge import LIMIT_S
+from tests.ros2.words import nav2_state
 from tests.wire.examples import STATUS
 from wire import Grant, Hello, Mode, Status, Velocity, keys
 from wire.keys import Party
 from wire.session import open_session
 from wire.status import GrantLeft, Owner
 
-LIMIT_S = 60.0
 ROBOT = """
 [drive]
 kind = "ros2"
 [ros2]
-url = "ws://127.0.0.1:{port}"
+node = "tcp/127.0.0.1:7448"
 [inputs]
 imu = false
 """
 
 
 @pytest.fixture
-def server() -> Iterator[RosbridgeServer]:
-    made = RosbridgeServer(0, {TOPIC: "geometry_msgs/msg/Twist"})
-    yield made
-    made.close()
-
-
-@pytest.fixture
-def process(tmp_path: Path, server: RosbridgeServer) -> Iterator[subprocess.Popen[bytes]]:
+def process(tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     path = tmp_path / "robot.toml"
-    path.write_text(ROBOT.format(port=server.port))
+    path.write_text(ROBOT + "[ros2.nav2]\n")
     words = ["--robot", str(path), "--home", str(tmp_path)]
     started = subprocess.Popen([sys.executable, "-m", "ros2.nav2", *words])
     yield started
@@ -51,13 +43,16 @@ def process(tmp_path: Path, server: RosbridgeServer) -> Iterator[subprocess.Pope
 
 @pytest.mark.e2e
 def test_it_owns_is_granted_says_each_twist_and_falls_silent_with_nav2(
-    tmp_path: Path, server: RosbridgeServer, process: subprocess.Popen[bytes]
+    tmp_path: Path, process: subprocess.Popen[bytes]
 ) -> None:
-    with open_session(Party.BRIDGE, "r1", tmp_path) as bridge:
+    with (
+        open_session(Party.BRIDGE, "r1", tmp_path) as bridge,
+        open_session(Party.ROS2, "r1", tmp_path) as ros2,
+    ):
         hears = {
             key.path: bridge.subscriber(key) for key in (keys.HELLO, keys.GRANT, keys.EXTERNAL)
         }
-        says, seq = bridge.publisher(keys.STATUS), 0
+        says, tells, seq = bridge.publisher(keys.STATUS), ros2.publisher(keys.NAV2_STATE), 0
         given: dict[str, Any] = {"owner": None, "grant": None, "held": None, "mode": Mode.HOLD}
         spoken: list[Velocity] = []
         end_s = time.monotonic() + LIMIT_S
@@ -67,7 +62,7 @@ def test_it_owns_is_granted_says_each_twist_and_falls_silent_with_nav2(
             status: Status = STATUS.model_copy(update=given | {"seq": seq, "map_id": "0" * 16})
             says.put(status)
             if len(spoken) < 10:
-                server.publish(TOPIC, twist(0.2, -0.1))
+                tells.put(nav2_state(seq, 0.2, -0.1))
             elif silent_s == float("inf"):
                 silent_s = time.monotonic() + 1.0
             time.sleep(0.05)
@@ -86,17 +81,18 @@ def test_it_owns_is_granted_says_each_twist_and_falls_silent_with_nav2(
 
 
 @pytest.mark.parametrize(
-    ("text", "words", "code"),
+    ("text", "code"),
     [
-        ("", [], "ros2_not_configured"),
-        (ROBOT.format(port=1), ["--topic", "/cmd_vel"], "nav2_topic_taken"),
-        ("[ros2]\ntransport = 'carrier pigeon'", [], "robot_toml_invalid"),
+        ("", "ros2_not_configured"),
+        (ROBOT, "ros2_not_configured"),
+        ("[ros2]\ntransport = 'carrier pigeon'", "ros2_former_keys"),
+        ("[ros2]\nnode = 'carrier pigeon'", "robot_toml_invalid"),
     ],
 )
 def test_what_can_not_be_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, words: list[str], code: str
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, code: str
 ) -> None:
     path = tmp_path / "robot.toml"
     path.write_text(text)
-    assert main(["--robot", str(path), "--home", str(tmp_path), *words]) == 2
+    assert main(["--robot", str(path), "--home", str(tmp_path)]) == 2
     assert code in capsys.readouterr().err

@@ -16,7 +16,7 @@ from pons.robot_processes import free_port
 from ros2.pons_ros2.pons_ros2.dead_man import CmdVelDeadMan
 from ros2.pons_ros2.pons_ros2.goals import Nav2Dialogue, read_order
 from ros2.pons_ros2.pons_ros2.link import PlannerLink
-from tests.ros2.test_process import LIMIT_S, Bridge
+from tests.ros2.bridge import LIMIT_S, Bridge
 from tests.ros2.words import ROS_S, STAMPED, odometry
 from wire import Nav2Goal, Nav2State, Pose2, keys
 from wire.keys import Party

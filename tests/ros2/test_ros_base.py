@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ros2.relay_watch import SILENT_S
-from ros2.ros_base import NOTHING_MADE, YOUNG_S, RosBase
+from ros2.ros_base import NOTHING_MADE, YOUNG_S, RosBase, TopicArrivals
 from ros2.trouble import STARTING, Ros2Trouble
 from tests.ros2.words import (
     ROS_S,
@@ -266,3 +266,28 @@ def test_no_hole_in_a_good_message_raises(name: str, step: int, value: object) -
 
 def test_stamps_are_on_the_robots_clock() -> None:
     assert json.loads(odometry(1.0))["stamp_s"] == 1.0 + ROS_S
+
+
+def test_the_rate_is_that_of_the_last_two_seconds() -> None:
+    topic = TopicArrivals()
+    for at in range(100):
+        topic.note(at * 0.02)
+    assert topic.rate_hz(2.0) == 50.0
+    assert topic.rate_hz(3.0) == 25.0
+    assert topic.rate_hz(9.0) == 0.0
+
+
+def test_silence_counts_from_the_newest_or_from_when_it_was_asked_for() -> None:
+    topic = TopicArrivals()
+    assert topic.silent_s(5.0, 6.0) == 1.0
+    topic.note(5.5)
+    assert topic.silent_s(5.0, 6.0) == 0.5
+    assert topic.silent_s(5.75, 6.0) == 0.25
+
+
+def test_a_refusal_is_remembered_for_two_seconds() -> None:
+    topic = TopicArrivals()
+    assert not topic.is_refused(0.0)
+    topic.refuse("null", 1.0)
+    assert topic.is_refused(2.9)
+    assert not topic.is_refused(3.1)

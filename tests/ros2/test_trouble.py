@@ -16,4 +16,4 @@ def test_each_code_is_explained_on_the_page(repository: Path) -> None:
 
 
 def test_a_detail_is_as_long_as_the_wire_carries() -> None:
-    assert len(Ros2Trouble("ros2_no_server", "x" * 1000).detail) == 400
+    assert len(Ros2Trouble("ros2_no_node", "x" * 1000).detail) == 400

@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,13 +27,14 @@ from pons.settings import LaunchSettings
 from ros2.robot_link import RobotLink
 from sensors.camera.shot import CameraTrouble
 from sensors.camera.source import open_source
-from tests.ros2.test_process import Bridge
+from tests.ros2.bridge import Bridge
 from tests.sensors.camera.test_packed_picture import JPEG, PICTURE
-from wire import CameraConfig, Nav2Goal, Nav2State, Pose2, Scan, keys, load_robot
+from tests.wire.examples import EXAMPLES
+from wire import CameraConfig, Nav2Goal, Nav2State, PlanView, Pose2, Scan, keys, load_robot
 from wire.keys import Party
 from wire.session import open_session
 
-NEEDS = "import rclpy, nav_msgs, diagnostic_msgs, zenoh"
+NEEDS = "import rclpy, nav_msgs, diagnostic_msgs, visualization_msgs, zenoh"
 PACKAGE = "ros2/pons_ros2"
 LIMIT_S = 60.0
 ROBOT = """
@@ -197,7 +199,7 @@ def test_a_node_that_is_ended_in_mid_drive_leaves_zeros_behind(
 ) -> None:
     graph.base(STAMPED)
     graph.process()
-    relay = graph.node()
+    relay = graph.node(rank=1)  # where this user may not have it, it drives without
     bridge.until(is_fast(graph))
     relay.terminate()
     assert relay.wait(LIMIT_S) == 0
@@ -281,6 +283,42 @@ def test_a_topic_of_pictures_that_is_missing_is_named(graph: Graph) -> None:
     with pytest.raises(CameraTrouble, match="ros2_topic_missing"):
         source.read()
     source.close()
+
+
+def test_rviz_is_shown_the_way_the_places_and_how_the_bridge_stands(
+    graph: Graph, bridge: Bridge
+) -> None:
+    graph.base(STAMPED)
+    graph.node()
+    graph.process()
+    lines: list[dict[str, Any]] = []
+    with open_session(Party.PLANNER, "r1", graph.home) as planner:
+        says = planner.publisher(keys.PLAN_VIEW)
+        said: list[subprocess.Popen[str]] = []
+        shown = EXAMPLES[PlanView]
+        assert isinstance(shown, PlanView)
+
+        def is_seen(name: str, wanted: object) -> Callable[[], bool]:
+            def look() -> bool:
+                says.put(shown)
+                if not said and bridge.state is not None:  # it comes late: all is kept for it
+                    said.append(graph.start(PYTHON, "tests/ros2/ros_graph.py", "viewer"))
+                    threading.Thread(target=keep, args=(said[0],), daemon=True).start()
+                return any(line.get(name) == wanted for line in lines)
+
+            return look
+
+        def keep(viewer: subprocess.Popen[str]) -> None:
+            assert viewer.stdout is not None
+            with suppress(ValueError):
+                lines.extend(map(json.loads, viewer.stdout))
+
+        bridge.until(is_seen("path", [[0.0, 1.0], [2.0, 1.0]]))
+        bridge.until(is_seen("markers", ["kitchen"]))
+        bridge.until(is_seen("status", '{"mode": "active", "held": ""}'))
+        told = {"pons_ros2: base": "the base is heard", "pons_ros2: planner": "active"}
+        bridge.until(is_seen("diagnostics", told))
+        assert {line["frame"] for line in lines if "path" in line} == {"map"}
 
 
 def test_nav2_hears_a_goal_and_its_word_and_twists_come_back(graph: Graph, bridge: Bridge) -> None:

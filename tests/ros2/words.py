@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from ros2.ros_base import RosBase
-from wire import DriveCommand, RobotDescription
+from wire import DriveCommand, Nav2State, RobotDescription
 
 ROS_S = 1_800_000_000.0
 """What the robot's ROS clock shows at our second 0."""
@@ -68,3 +68,12 @@ def driven(now_s: float = 10.0, relay_key: bytes = b"") -> RosBase:
     base.open(now_s)
     base.hear("state", state(now_s, 1), now_s)
     return base
+
+
+def nav2_state(twist: int, v_mps: float, w_radps: float = 0.0, **more: object) -> Nav2State:
+    words = {
+        "boot_id": "relay-1", "seq": twist, "mission": None, "leg": 0, "phase": "idle",
+        "phase_s": 0.0, "twist": twist, "twist_age_s": 0.0, "v_mps": v_mps, "w_radps": w_radps,
+        "code": None, "detail": "",
+    } | more  # fmt: skip
+    return Nav2State.model_validate(words)

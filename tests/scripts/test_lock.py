@@ -57,7 +57,7 @@ def test_every_pin_has_hashes(repository: Path, name: str) -> None:
     ("name", "extras"),
     [
         ("requirements.lock", ("install",)),
-        ("requirements-dev.lock", ("install", "dev", "dds")),
+        ("requirements-dev.lock", ("install", "dev")),
         ("requirements-attack.lock", ("install", "attack")),
     ],
 )
@@ -127,9 +127,9 @@ def test_each_package_that_running_needs_is_imported_or_named_with_its_user(
     by_import = packages_distributions()
     used = {canonicalize_name(one) for name in imported for one in by_import.get(name, [])}
     needed = {canonicalize_name(requirement.name) for requirement in wanted(repository)}
-    # Of the extras dds and sherpa: their users say aloud that they are missing.
+    # Of the extra sherpa: its users say aloud that it is missing.
     # And setuptools builds the package for a robot of ROS 2, over there.
-    used -= {"cyclonedds", "setuptools", "sherpa-onnx", "sherpa-onnx-core"}
+    used -= {"setuptools", "sherpa-onnx", "sherpa-onnx-core"}
     assert needed - used == set(FOR_OTHERS) - used
     assert used - needed <= COME_ALONG, "imported, but pyproject.toml does not ask for it"
 

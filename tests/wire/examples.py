@@ -38,6 +38,8 @@ from wire import (
     Odometry,
     OpRequest,
     Owner,
+    PlaceView,
+    PlanView,
     PortReport,
     Pose2,
     PoseCandidate,
@@ -227,7 +229,7 @@ _MESSAGES: tuple[Record, ...] = (
     ),
     Ros2Status(
         boot_id="ros2-1",
-        code="ros2_no_relay",
+        code="ros2_no_base",
         detail="the graph has /cmd_vel, but no /pons/state",
         cmd_vel="geometry_msgs/msg/TwistStamped",
         odom_hz=50.0,
@@ -292,6 +294,14 @@ _MESSAGES: tuple[Record, ...] = (
         **STAMP,
     ),
     Nav2Goal(planner_id="p1", seen=41, mission="m1", leg=2, goal=IDENTITY, here=IDENTITY),
+    PlanView(
+        seq=7,
+        mode="active",
+        held="",
+        mission="m1",
+        path=((0.0, 1.0), (2.0, 1.0)),
+        places=(PlaceView(name="kitchen", x_m=2.0, y_m=1.0),),
+    ),
     Nav2State(
         boot_id="ros2-1",
         seq=9,

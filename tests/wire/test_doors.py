@@ -81,7 +81,7 @@ def test_who_is_only_looked_at_hears_nothing() -> None:
     for door in doors_of(Party.PLANNER):
         assert door.name in ("bridge", "hint", "nav2") or not door.hears
     nav2 = next(door for door in DOORS if door.name == "nav2")
-    assert [key.path for key in nav2.hears] == ["nav2/goal"], "a place to go to, and no velocity"
+    assert [key.path for key in nav2.hears] == ["nav2/goal", "plan/view"], "no velocity"
     assert nav2.dialled_by == (Party.PLANNER, Party.JUDGE)
     hint = next(door for door in DOORS if door.name == "hint")
     assert ([key.path for key in hint.hears], hint.says) == (["loc/hint"], ())

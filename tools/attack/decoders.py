@@ -5,7 +5,6 @@ A reader takes bytes and returns; any exception but its own refusals is a crash.
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -222,27 +221,22 @@ def _yaml(folder: Path) -> Reader:
     return Reader(read, (SiteError,))
 
 
-def _rosbridge(_folder: Path) -> Reader:
-    """Hear a server's frame on a base that is driven; what comes of it the wire must carry."""
-    from ros2 import BaseLink, rosbridge
-    from ros2.graph import needs_of
+def _ros2(_folder: Path) -> Reader:
+    """Hear a robot's words on a base that is driven; what comes of them the wire must carry."""
+    from ros2.ros_base import RosBase
     from wire import decode, encode, keys, load_robot
 
     robot = load_robot(seeds.SITES.parent / "robots" / "ros2_diff_drive.toml")
-    needs = needs_of(robot.ros2) if robot.ros2 is not None else ()
-    answers = [{"id": f"type:{need.topic}", "values": {"type": need.kinds[0]}} for need in needs]
-    heard_before: list[str | bytes] = [
-        json.dumps({"op": "service_response"} | answer) for answer in answers
-    ]
-    heard_before += seeds.rosbridge_frames()[:1]
+    state = seeds.ros2_words()[0].partition(b" ")[2]
 
     def read(data: bytes) -> object:
-        link = BaseLink(robot, "attacked")
-        link.open(1.0)
-        for frame in heard_before:
-            link.hear(rosbridge.read(frame), 1.0)
-        heard = link.hear(rosbridge.read(data), 1.01)
-        link.judge(1.02)
+        name, _, payload = data.partition(b" ")
+        base = RosBase(robot, "attacked")
+        base.open(1.0)
+        base.hear("state", state, 1.0)
+        known = name.decode("ascii", "replace")
+        heard = base.hear(known if known in base.names else "odom", payload, 1.01)
+        base.judge(1.02)
         for made, again in (
             (heard.state, partial(decode, keys.DRIVE_STATE)),
             (heard.scan, partial(decode, keys.SCAN)),
@@ -250,30 +244,28 @@ def _rosbridge(_folder: Path) -> Reader:
         ):
             if made is not None and again(encode(made)) != made:
                 raise Unsound("a message that the wire does not carry")
-        return link.status(1, 1.02)
+        return base.status(1, 1.02)
 
     return Reader(read)
 
 
 def _packed_picture(_folder: Path) -> Reader:
-    """Read a message by CDR and unpack its picture, as the camera of a ROS 2 robot is read."""
+    """Read a picture's head and unpack its bytes, as the camera of a ROS 2 robot is read."""
     import cv2
 
-    from ros2 import cdr
-    from ros2.compressed_image import COMPRESSED_IMAGE, read_compressed_image
-    from ros2.robot_words import Unreadable
-    from ros2.trouble import TopicFailure
-    from sensors.camera.packed_picture import unpack
+    from ros2.pictures import RosPictureListener
+    from sensors.camera.ros2_source import color_of, depth_of
     from sensors.camera.shot import CameraTrouble
 
     cv2.setNumThreads(1)
 
     def read(data: bytes) -> object:
-        try:
-            packed = read_compressed_image(cdr.decode(COMPRESSED_IMAGE, data), "/c")
-        except (Unreadable, TopicFailure):
+        head, _, picture = data.partition(b"\n")
+        heard = RosPictureListener("tcp/robot:1").hear(head, picture, 1.0)
+        if heard is None:
             return None
-        return unpack(packed.data, packed.format, "/c")
+        reader = depth_of if "epth" in heard.head.format else color_of
+        return reader(heard.head, heard.data)
 
     return Reader(read, (CameraTrouble,))
 
@@ -337,7 +329,7 @@ DECODERS = (
     AttackedDecoder("fence", seeds.fences, _fence),
     AttackedDecoder("toml", lambda: [*seeds.robots(), *seeds.SETTINGS], _toml),
     AttackedDecoder("yaml", lambda: [*seeds.places(), *seeds.maps()], _yaml),
-    AttackedDecoder("rosbridge", seeds.rosbridge_frames, _rosbridge),
+    AttackedDecoder("ros2", seeds.ros2_words, _ros2),
     AttackedDecoder("packed_picture", seeds.packed_pictures, _packed_picture),
     AttackedDecoder("language", seeds.texts, _language, 600),
     AttackedDecoder("offline", seeds.texts, _offline, 300),

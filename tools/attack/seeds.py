@@ -134,17 +134,20 @@ def pictures() -> list[bytes]:
 
 
 def packed_pictures() -> list[bytes]:
-    """Return messages of a ROS 2 camera as CDR: a JPEG, a PNG, and depth."""
+    """Return pictures of a ROS 2 robot, each after the line of its head: packed, raw and depth."""
     import cv2
     import numpy as np
 
-    from ros2 import cdr
-    from ros2.compressed_image import COMPRESSED_IMAGE
-
     picture = np.full((12, 16, 3), 90, np.uint8)
     jpeg, png = (cv2.imencode(kind, picture)[1].tobytes() for kind in (".jpg", ".png"))
-    forms = (("jpeg", jpeg), ("rgb8; png compressed rgb8", png), ("16UC1; compressedDepth", png))
-    return [cdr.encode(COMPRESSED_IMAGE, {"format": form, "data": data}) for form, data in forms]
+    deep = cv2.imencode(".png", np.full((12, 16), 900, np.uint16))[1].tobytes()
+    heads: list[tuple[dict[str, object], bytes]] = [
+        ({"format": "jpeg"}, jpeg),
+        ({"format": "rgb8; png compressed rgb8"}, png),
+        ({"format": "16UC1; compressedDepth"}, deep),
+        ({"kind": "raw", "format": "rgb8", "width": 16, "height": 12}, picture.tobytes()),
+    ]
+    return [json.dumps(head).encode() + b"\n" + data for head, data in heads]
 
 
 def texts() -> list[bytes]:
@@ -191,40 +194,28 @@ def kept_seeds() -> list[bytes]:
     ]
 
 
-def rosbridge_frames() -> list[bytes]:
-    """Return what a rosbridge server says of a base: answers, a relay's state, sensors."""
-    header = {"stamp": {"sec": 1_800_000_000, "nanosec": 5}, "frame_id": "odom"}
-    turned = {"x": 0.0, "y": 0.0, "z": 0.6, "w": 0.8}
-    pose = {"pose": {"position": {"x": 1.0, "y": 2.0, "z": 0.0}, "orientation": turned}}
-    twist = {"twist": {"linear": {"x": 0.3}, "angular": {"z": 0.1}}}
-    state = {
-        "relay": "relay-1", "seq": 2, "t": 7.0, "ros": 1.8e9, "echo_boot": "b", "echo_seq": 3,
-        "timed_out": False, "on": True, "cmd_vel": "geometry_msgs/msg/Twist", "others": 0,
+def ros2_words() -> list[bytes]:
+    """Return what the node on a ROS 2 robot says, each after its key: its state, then sensors."""
+    said: dict[str, dict[str, object]] = {
+        "state": {
+            "relay": "relay-1", "seq": 2, "t": 7.0, "ros": 1.8e9, "echo_boot": "b", "echo_seq": 3,
+            "timed_out": False, "on": True, "cmd_vel": "geometry_msgs/msg/Twist", "others": 0,
+        },
+        "odom": {
+            "stamp_s": 1.8e9, "x_m": 1.0, "y_m": 2.0, "yaw_rad": 1.2, "v_mps": 0.3, "w_radps": 0.1,
+            "battery": 0.5, "estop": False, "bumper_front": None, "bumper_rear": False,
+            "cliff": False,
+        },
+        "scan": {
+            "stamp_s": 1.8e9, "frame": "laser", "angle_min_rad": -3.1, "angle_increment_rad": 0.1,
+            "time_increment_s": 0.001, "range_min_m": 0.1, "range_max_m": 8.0,
+            "ranges_m": [1.0, None, 0.0, 9.0, 2.5], "clockwise": False,
+        },
+        "imu": {
+            "stamp_s": 1.8e9, "yaw_rate_radps": 0.2, "accel_x_mps2": 0.1, "accel_y_mps2": 0.0,
+        },
     }  # fmt: skip
-    scan = {
-        "header": header, "angle_min": -3.1, "angle_increment": 0.1, "time_increment": 0.001,
-        "range_min": 0.1, "range_max": 8.0, "ranges": [1.0, None, 0.0, 9.0, 2.5],
-    }  # fmt: skip
-    imu = {
-        "header": header,
-        "angular_velocity": {"z": 0.2},
-        "linear_acceleration": {"x": 0.1, "y": 0.0},
-    }
-    said = {
-        "/pons/state": {"data": json.dumps(state)},
-        "/odom": {"header": header, "pose": pose, "twist": twist},
-        "/scan": scan,
-        "/imu": imu,
-    }
-    frames: list[dict[str, object]] = [
-        {"op": "publish", "topic": topic, "msg": message} for topic, message in said.items()
-    ]
-    frames.append({"op": "status", "level": "error", "msg": "no"})
-    frames += [
-        {"op": "service_response", "id": f"type:{topic}", "values": {"type": "x"}, "result": True}
-        for topic in said
-    ]
-    return [json.dumps(frame).encode() for frame in frames]
+    return [f"{name} {json.dumps(words)}".encode() for name, words in said.items()]
 
 
 def homes() -> list[bytes]:

@@ -71,6 +71,33 @@ def read_order(text: str) -> PlannerOrder:
         raise UnusableMessage(f"no order of the planner: {error}"[:200]) from None
 
 
+@dataclass(frozen=True)
+class ShownPlan:
+    """Hold what people may look at: the bridge's mode, the way and the places in the map [m]."""
+
+    mode: str
+    held: str
+    path: tuple[tuple[float, float], ...]
+    places: tuple[tuple[str, float, float], ...]
+
+
+def read_plan(text: str) -> ShownPlan:
+    """Read what the planner shows.
+
+    Raises:
+        UnusableMessage: it is none.
+    """
+    try:
+        raw = json.loads(text)
+        path = tuple((float(x), float(y)) for x, y in raw["path"])
+        places = tuple((str(p["name"]), float(p["x_m"]), float(p["y_m"])) for p in raw["places"])
+        if not all(isfinite(x) and isfinite(y) for x, y in (*path, *(p[1:] for p in places))):
+            raise ValueError("a point is not finite")
+        return ShownPlan(str(raw["mode"]), str(raw["held"]), path, places)
+    except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
+        raise UnusableMessage(f"no plan of the planner: {error}"[:200]) from None
+
+
 def _pose(raw: Any) -> Pose | None:
     if raw is None:
         return None

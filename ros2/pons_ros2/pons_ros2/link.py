@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 PREFIX = "pons/ros2"
-HEARS = ("command", "nav2/goal")
+HEARS = ("command", "nav2/goal", "plan")
 SAYS = ("state", "odom", "scan", "imu", "frames", "map", "picture", "depth", "nav2/state")
 MOST_HEARD_BYTES = 65_536
 DEFAULT_PORT = 7448

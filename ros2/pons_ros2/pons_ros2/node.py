@@ -6,11 +6,13 @@ odometry, scans and the rest back. Without a command, and when it ends, the base
 
 from __future__ import annotations
 
+import os
 import secrets
 import signal
 import sys
 import threading
 import time
+import traceback
 from typing import Any
 
 import rclpy
@@ -23,6 +25,7 @@ from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 
 from .dead_man import CmdVelDeadMan, key_of, strip_signature
+from .display import RvizDisplay
 from .graph_check import STAMPED, TopicCheck, TopicPublishers, judge_cmd_vel
 from .link import OpenToAll, PlannerLink
 from .nav2 import Nav2Topics
@@ -58,24 +61,39 @@ class PonsBase(Node):
         self.trouble: tuple[str, str] | None = ("ros2_starting", "the graph was not looked at yet")
         self.drives: Any = None
         self.ticks = 0
+        self._rise(self._ask("rank", 0))  # before the threads that inherit it
         listen = self._ask("listen", "tcp/127.0.0.1:7448")
         self.link = PlannerLink(listen, has_key=bool(self.key))
         given = self._ask("scan_zero", "near"), self._ask("picture_hz", 10.0)
         self.senses = Senses(self, self.link, names, *given)
         self.graph = TopicCheck(self.senses.needs())
         self.nav2 = Nav2Topics(self, self.link, boot, names) if self._ask("nav2", False) else None
+        self.display = RvizDisplay(self, names["map_frame"])
         if self.nav2 is not None and names["nav2_cmd_vel"] == self.topic:
             raise ValueError(f"nav2_cmd_vel and cmd_vel are both {self.topic}")
         self.says = self.create_publisher(String, "pons/state", 10)
         self.tells = self.create_publisher(DiagnosticArray, "/diagnostics", 10)
         self.link.hear("command", self.hear)
         self.link.hear("nav2/goal", self.hear_goal)
-        self.create_timer(PERIOD_S, self.turn, clock=STEADY)
+        self.link.hear("plan", self.hear_plan)
+        self.ending = threading.Event()
+        self.keeper = threading.Thread(target=self.keep, name="dead-man", daemon=True)
+        self.keeper.start()
+        if self.nav2 is not None:
+            self.create_timer(PERIOD_S, self.tell_nav2, clock=STEADY)
         self.create_timer(LOOK_S, self.look, clock=STEADY)
         self.get_logger().info(f"{boot} listens at {listen}, drives {self.topic}")
 
     def _ask(self, name: str, default: Any) -> Any:
         return self.declare_parameter(name, default).value
+
+    def _rise(self, rank: int) -> None:
+        """Take a real-time rank, where the system lets this user."""
+        try:
+            if rank > 0:
+                os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(rank))
+        except OSError as why:
+            self.get_logger().warning(f"rank {rank}: {why}; see /etc/security/limits.d, rtprio")
 
     def _topic(self, name: str, default: str) -> str:
         given = self._ask(name, default)
@@ -93,6 +111,21 @@ class PonsBase(Node):
         if self.nav2 is not None and text is not None:
             self.nav2.hear(text)
 
+    def hear_plan(self, words: str) -> None:
+        """Take what the planner shows, on a thread of zenoh's."""
+        text = strip_signature(words, self.key)
+        if text is not None:
+            self.display.hear(text, time.monotonic())
+
+    def keep(self) -> None:
+        """Be the dead-man's own thread: it waits behind no picture and no scan of the executor."""
+        try:
+            while not self.ending.wait(PERIOD_S):
+                self.turn()
+        except Exception:  # noqa: BLE001  # without a dead-man this process must not live
+            traceback.print_exc()  # the guard sends zeros, and the launch file starts it again
+            os._exit(1)
+
     def turn(self) -> None:
         """Say how it stands; while no command holds, send zeros again and again."""
         now_s = time.monotonic()
@@ -104,8 +137,11 @@ class PonsBase(Node):
         self.ticks += 1
         if self.ticks % 2 == 0:
             self.says.publish(String(data=state))
+
+    def tell_nav2(self) -> None:
+        """Publish the goal that is due, and tell the planner what is new of Nav2."""
         if self.nav2 is not None:
-            self.nav2.turn(now_s)
+            self.nav2.turn(time.monotonic())
 
     def state(self, now_s: float, **more: object) -> str:
         """Return what Pons and the guard are told."""
@@ -131,7 +167,7 @@ class PonsBase(Node):
         self.senses.look(time.monotonic())
         if self.nav2 is not None:
             self.nav2.look()
-        self.diagnose()
+        self.diagnose(self.display.look(time.monotonic()))
 
     def read_publishers(self, topic: str) -> TopicPublishers:
         """Return what the graph says of a topic's publishers."""
@@ -149,19 +185,25 @@ class PonsBase(Node):
         made = TwistStamped if kind == STAMPED else Twist
         self.drives, self.kind = self.create_publisher(made, self.topic, 1), kind
 
-    def diagnose(self) -> None:
-        """Tell rqt and the like."""
+    def diagnose(self, planner: str) -> None:
+        """Tell rqt and the like how base and planner stand."""
         code, found = self.trouble or ("", "the base is heard")
         level = DiagnosticStatus.ERROR if code else DiagnosticStatus.OK
-        one = DiagnosticStatus(
+        base = DiagnosticStatus(
             level=level, name="pons_ros2: base", message=f"{code} {found}".strip()
         )
-        array = DiagnosticArray(status=[one])
+        level = DiagnosticStatus.OK if planner else DiagnosticStatus.STALE
+        said = DiagnosticStatus(
+            level=level, name="pons_ros2: planner", message=planner or "not heard"
+        )
+        array = DiagnosticArray(status=[base, said])
         array.header.stamp = self.get_clock().now().to_msg()
         self.tells.publish(array)
 
     def stop(self) -> None:
         """Send zeros, whatever is asked for, and tell the guard that this is no death."""
+        self.ending.set()
+        self.keeper.join()
         with self.lock:
             self.trouble = ENDED  # a command that comes now moves nothing
             self.drive()

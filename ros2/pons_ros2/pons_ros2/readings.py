@@ -12,6 +12,8 @@ from typing import Any
 MOST = 1e12
 MAX_BEAMS = 2048
 SLOWEST_BEAM_S = 0.01
+MOST_NAME = 64
+TILT = 1e-3
 _UNIT = 0.1
 """How far a quaternion's length may be off: some bases send all zeros, which turns by nothing."""
 Words = dict[str, Any]
@@ -100,7 +102,7 @@ def read_scan(message: Any, zero: str = "near") -> Words:
     first_rad += abs(step_rad) * (each - 1) / 2.0
     return {
         "stamp_s": stamp_of(message),
-        "frame": str(message.header.frame_id)[:64],
+        "frame": str(message.header.frame_id)[:MOST_NAME],
         "angle_min_rad": math.remainder(first_rad, 2.0 * math.pi),
         "angle_increment_rad": abs(step_rad) * each,
         "time_increment_s": min(max(beam_s, 0.0), SLOWEST_BEAM_S),
@@ -130,35 +132,37 @@ def read_battery(message: Any) -> float | None:
 
 
 def read_map(message: Any) -> Words:
-    """Return all of a nav_msgs/OccupancyGrid but its cells, as ROS names its fields."""
+    """Return all of a nav_msgs/OccupancyGrid but its cells.
+
+    Raises:
+        UnusableMessage: a field is not finite, or the map is tilted.
+    """
     info, origin = message.info, message.info.origin
+    turn = origin.orientation
+    if not (abs(turn.x) <= TILT and abs(turn.y) <= TILT):
+        raise UnusableMessage("info.origin.orientation is tilted, expected a turn about z")
     return {
-        "header": {"frame_id": message.header.frame_id},
-        "info": {
-            "resolution": info.resolution,
-            "width": info.width,
-            "height": info.height,
-            "origin": {
-                "position": {"x": origin.position.x, "y": origin.position.y},
-                "orientation": {axis: getattr(origin.orientation, axis) for axis in "xyzw"},
-            },
-        },
+        "resolution_m": round(_number(info.resolution, "info.resolution"), 6),  # a float32
+        "width": info.width,
+        "height": info.height,
+        "x_m": _number(origin.position.x, "info.origin.position.x"),
+        "y_m": _number(origin.position.y, "info.origin.position.y"),
+        "yaw_rad": yaw_of(turn, "info.origin.orientation") if turn.z or turn.w else 0.0,
     }
 
 
 def read_frames(message: Any) -> list[Words]:
-    """Return the transforms of a tf2_msgs/TFMessage, as ROS names their fields."""
-    return [
-        {
-            "child_frame_id": one.child_frame_id,
-            "header": {"frame_id": one.header.frame_id},
-            "transform": {
-                "translation": {axis: getattr(one.transform.translation, axis) for axis in "xyz"},
-                "rotation": {axis: getattr(one.transform.rotation, axis) for axis in "xyzw"},
-            },
-        }
-        for one in message.transforms
-    ]
+    """Return the transforms of a tf2_msgs/TFMessage that are finite."""
+    read = []
+    for one in message.transforms:
+        at, turn = one.transform.translation, one.transform.rotation
+        numbers = [float(getattr(at, axis)) for axis in "xyz"]
+        turned = [float(getattr(turn, axis)) for axis in "xyzw"]
+        if all(map(math.isfinite, (*numbers, *turned))):
+            parent = str(one.header.frame_id)[:MOST_NAME]
+            child = str(one.child_frame_id)[:MOST_NAME]
+            read.append({"parent": parent, "child": child, "at_m": numbers, "turned": turned})
+    return read
 
 
 def _nearest(ranges: list[float | None]) -> float | None:

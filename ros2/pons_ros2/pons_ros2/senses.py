@@ -141,19 +141,23 @@ class Senses:
 
     def _hear_frames(self, message: Any) -> None:
         for one in readings.read_frames(message):
-            self._frames[one["child_frame_id"]] = one
+            self._frames[one["child"]] = one
         self._frames_s = 0.0
 
     def _hear_map(self, message: Any) -> None:
         self._map, self._map_s = message, 0.0
 
     def _say_map(self, now_s: float) -> None:
-        if self._link.has_listener("map"):
-            self._map_s = now_s
-            data = self._map.data
-            cells = data.tobytes() if hasattr(data, "tobytes") else bytes(x & 255 for x in data)
-            head = readings.read_map(self._map) | {"topic": self._names["map"]}
-            self._link.say_bytes("map", head, cells)
+        if not self._link.has_listener("map"):
+            return
+        self._map_s = now_s
+        topic, data = self._names["map"], self._map.data
+        cells = data.tobytes() if hasattr(data, "tobytes") else bytes(x & 255 for x in data)
+        try:
+            head = readings.read_map(self._map)
+        except UnusableMessage as why:
+            head, cells = {"code": "ros2_unreadable", "found": f"{topic}: {why}"}, b""
+        self._link.say_bytes("map", head | {"topic": topic}, cells)
 
     def _hear_picture(self, name: str, message: Any) -> None:
         now_s = time.monotonic()

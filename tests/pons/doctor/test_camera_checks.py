@@ -10,8 +10,8 @@ import pytest
 from pons.doctor import camera_checks
 from pons.doctor.camera_checks import camera
 from pons.doctor.finding import HealthFinding, HealthVerdict
-from sim.twin.rosbridge_server import RosbridgeServer
 from tests.sensors.camera.films import film
+from tests.sensors.camera.test_ros2_source import RosCamera
 from wire import RobotDescription
 
 METAL = {"kind": "pons_mcu", "port": "/dev/x", "ticks_per_turn": 400}
@@ -37,21 +37,20 @@ def test_a_camera_that_gives_pictures_is_named_with_their_size(tmp_path: Path) -
     assert "160 x 120" in found.found.en
 
 
-def test_a_topic_of_ros_that_is_no_packed_picture_has_its_cure_in_both_languages(
+def test_a_picture_of_ros_that_is_missing_has_its_cure_in_both_languages(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("sensors.camera.ros2_source.OPEN_S", 1.5)
-    server = RosbridgeServer(0, {"/camera": "sensor_msgs/msg/Image"})
-    ros2 = {"url": f"ws://127.0.0.1:{server.port}"}
-    told = {"drive": {"kind": "ros2"}, "ros2": ros2, "inputs": {"imu": False}}
-    told["camera"] = {"kind": "ros2", "topic": "/camera"}
+    robot = RosCamera(code="ros2_topic_type", found="picture /camera is a Pose")
+    told = {"drive": {"kind": "ros2"}, "ros2": {"node": robot.node}, "inputs": {"imu": False}}
+    told["camera"] = {"kind": "ros2"}
     found = camera(tmp_path, RobotDescription.model_validate(told))
-    server.close()
+    robot.close()
     assert found.verdict is HealthVerdict.WARN
-    assert found.found.en.startswith("ros2_image_raw: /camera is sensor_msgs/msg/Image")
+    assert found.found.en.startswith("ros2_topic_type: picture /camera is a Pose")
     assert found.fix is not None
-    assert "/compressed" in found.fix.en
-    assert "压缩图像" in found.fix.zh
+    assert "expected type" in found.fix.en
+    assert "类型正确" in found.fix.zh
 
 
 def test_one_that_is_missing_has_its_cure_in_both_languages(

@@ -269,6 +269,17 @@ def test_wrong_files_are_quoted(tmp_path: Path) -> None:
     assert model_checks.recogniser(None).name == "recogniser"
 
 
+def test_a_robot_toml_of_the_former_ways_to_ros_is_told_what_to_install_and_write(
+    tmp_path: Path,
+) -> None:
+    path = tmp_path / "robot.toml"
+    path.write_text('[drive]\nkind = "ros2"\n[ros2]\nurl = "ws://10.0.0.5:9090"\nodom = "/o"\n')
+    found, _ = path_checks.robot(path)
+    assert_says(found, HealthVerdict.FAIL, "ros2_former_keys", 'odom: "/o"', "pons robot node")
+    assert found.fix is not None
+    assert "pons robot node" in found.fix.zh
+
+
 @pytest.mark.usefixtures("deaf")
 def test_of_a_robot_that_nobody_can_read_nothing_is_called_well(
     settings: LaunchSettings, tmp_path: Path

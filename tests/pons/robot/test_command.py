@@ -16,7 +16,6 @@ from devices.port_probe import PortAnswer
 from pons.__main__ import main
 from pons.robot.command import CODES, camera_part, describe, describe_cameras, robot_part
 from pons.robot.port_finder import PortFinding
-from pons_assets import RELAY
 from tests.pons.robot.twin_ports import PlayedController, PlayedLidar, entry, played
 from wire import RobotDescription
 
@@ -38,13 +37,6 @@ def test_the_part_of_robot_toml_is_taken_as_it_is_once_what_is_missing_is_filled
     assert (robot.drive.kind, robot.drive.port) == ("pons_mcu", "/dev/ttyACM0")
     assert (robot.lidar.kind, robot.lidar.model) == ("rplidar", "a1")
     assert robot.lidar.port == "/dev/serial/by-id/usb-x"
-
-
-def test_the_relay_is_printed_as_it_is(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["robot", "relay"]) == 0
-    printed = capsys.readouterr().out
-    assert printed == RELAY.read_text("utf-8")
-    compile(printed, "relay.py", "exec")
 
 
 def test_a_second_device_of_a_part_is_commented_out() -> None:

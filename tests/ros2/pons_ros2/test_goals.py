@@ -19,9 +19,11 @@ from ros2.pons_ros2.pons_ros2.goals import (
     Nav2Dialogue,
     Pose,
     read_order,
+    read_plan,
 )
 from ros2.pons_ros2.pons_ros2.readings import UnusableMessage
-from wire import Nav2Goal, Nav2State, Pose2, decode, encode, keys
+from tests.wire.examples import EXAMPLES
+from wire import Nav2Goal, Nav2State, PlanView, Pose2, decode, encode, keys
 from wire.nav2_dialogue import UNASKED_S as WIRE_UNASKED_S
 
 GOAL, HERE = Pose2(2.0, 1.0, 0.5), Pose2(0.0, 0.0, 0.0)
@@ -187,3 +189,22 @@ def test_what_is_no_order_is_refused(text: str) -> None:
 
 def test_both_ends_wait_equally_long_for_a_planner() -> None:
     assert UNASKED_S == WIRE_UNASKED_S
+
+
+def test_what_the_planner_shows_is_read() -> None:
+    read = read_plan(encode(EXAMPLES[PlanView]).decode())
+    assert (read.mode, read.held) == ("active", "")
+    assert (read.path, read.places) == (((0.0, 1.0), (2.0, 1.0)), (("kitchen", 2.0, 1.0),))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"path": [[0.0]]}, {"path": [[0.0, math.nan]]}, {"path": None}, {"places": [{"name": "x"}]},
+     {"places": [{"name": "x", "x_m": math.inf, "y_m": 0.0}]}],
+)  # fmt: skip
+def test_what_is_no_plan_is_refused(change: dict[str, Any]) -> None:
+    raw = json.loads(encode(EXAMPLES[PlanView]).decode())
+    with pytest.raises(UnusableMessage):
+        read_plan(json.dumps(raw | change))
+    with pytest.raises(UnusableMessage):
+        read_plan("[" * 99_999)

@@ -101,13 +101,29 @@ def test_a_battery_that_can_not_tell_tells_nothing(said: float, full: float | No
     assert read_battery(Made(percentage=said)) == full
 
 
-def test_map_and_frames_keep_the_names_of_ros() -> None:
-    turn = Made(x=0.0, y=0.0, z=0.0, w=1.0)
+def grid(**turned: float) -> Any:
+    turn = Made(**{"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0} | turned)
     origin = Made(position=Made(x=-3.0, y=0.0, z=0.0), orientation=turn)
-    info = Made(resolution=0.1, width=2, height=1, origin=origin)
-    read = read_map(Made(header=HEADER, info=info))
-    assert read["info"]["origin"]["position"] == {"x": -3.0, "y": 0.0}
-    inner = Made(translation=Made(x=0.1, y=0.0, z=0.2), rotation=turn)
-    one = Made(child_frame_id="laser", header=Made(frame_id="base_link"), transform=inner)
-    (frame,) = read_frames(Made(transforms=[one]))
-    assert frame["transform"]["translation"] == {"x": 0.1, "y": 0.0, "z": 0.2}
+    return Made(info=Made(resolution=0.05000000074505806, width=2, height=1, origin=origin))
+
+
+def test_a_map_says_how_its_cells_lie_and_a_tilted_one_is_refused() -> None:
+    read = read_map(grid())
+    assert read == {
+        "resolution_m": 0.05, "width": 2, "height": 1, "x_m": -3.0, "y_m": 0.0, "yaw_rad": 0.0,
+    }  # fmt: skip
+    assert read_map(grid(w=0.0))["yaw_rad"] == 0.0, "some map servers fill nothing in"
+    assert read_map(grid(z=1.0, w=0.0))["yaw_rad"] == pytest.approx(math.pi)
+    with pytest.raises(UnusableMessage, match="tilted"):
+        read_map(grid(x=0.7, w=0.7))
+
+
+def test_frames_are_read_and_one_that_is_not_finite_is_left_out() -> None:
+    def one(x: float) -> Any:
+        turn = Made(x=0.0, y=0.0, z=0.0, w=1.0)
+        inner = Made(translation=Made(x=x, y=0.0, z=0.2), rotation=turn)
+        return Made(child_frame_id="laser", header=Made(frame_id="base_link"), transform=inner)
+
+    (frame,) = read_frames(Made(transforms=[one(0.1), one(math.nan)]))
+    assert (frame["parent"], frame["child"]) == ("base_link", "laser")
+    assert (frame["at_m"], frame["turned"]) == ([0.1, 0.0, 0.2], [0.0, 0.0, 0.0, 1.0])

@@ -17,7 +17,7 @@ import pytest
 from sensors.camera.__main__ import main
 from tests.sensors.camera.films import HEIGHT, TOP, WIDTH, film, network_camera
 from tests.sensors.camera.test_packed_picture import PICTURE
-from tests.sensors.camera.test_ros2_source import COMPRESSED, TOPIC, RosCamera
+from tests.sensors.camera.test_ros2_source import RosCamera
 from wire import CameraStatus, Image, keys
 from wire.keys import Party
 from wire.session import open_session
@@ -127,7 +127,7 @@ kind = "ros2"
 [inputs]
 imu = false
 [ros2]
-url = "{url}"
+node = "{node}"
 """
 
 
@@ -135,13 +135,12 @@ url = "{url}"
 def test_a_camera_of_ros_2_is_shown_comes_late_and_goes(
     eyes: Eyes, started: Callable[[str], subprocess.Popen[str]]
 ) -> None:
-    camera = RosCamera(kind="")
-    url = ROS2.format(url=camera.ros2.url)
-    process = started(f'kind = "ros2"\ntopic = "{TOPIC}"{url}')
+    camera = RosCamera(code="ros2_topic_missing", found="no /camera/compressed")
+    process = started(f'kind = "ros2"{ROS2.format(node=camera.node)}')
     try:
         eyes.until(lambda: eyes.code() == "ros2_topic_missing")
         assert eyes.images == []
-        camera.server.types[TOPIC] = COMPRESSED
+        camera.head["code"] = None
         eyes.until(lambda: len(eyes.images) >= 10 and eyes.code() is None)
         color = cv2.imdecode(np.frombuffer(eyes.images[-1].data, np.uint8), cv2.IMREAD_COLOR)
         assert np.abs(np.asarray(color, int) - PICTURE).mean() < 5
@@ -163,7 +162,8 @@ def test_a_camera_of_ros_2_is_shown_comes_late_and_goes(
         ('kind = "none"', "camera_not_real"),
         ('kind = "realsense"', "camera_library_missing"),
         ('kind = "uvc"', "camera.device is missing"),
-        ('kind = "ros2"\ntopic = "/c"', "ros2.url is missing: camera.kind 'ros2'"),
+        ('kind = "ros2"', "ros2.node is missing: camera.kind 'ros2'"),
+        ('kind = "ros2"\ntopic = "/c"', "ros2_former_keys"),
         ('kind = "stream"\nurl = "ftp://x"', "robot_toml_invalid"),
         ('kind = "uvc"\ndevice = "/dev/video0"\nurl = "http://x"', "camera.url is for"),
         ('kind = "uvc"\ndevice = "/dev/video0"\nfourcc = "MJ"', "robot_toml_invalid"),

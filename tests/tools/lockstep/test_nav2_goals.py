@@ -1,30 +1,29 @@
 """Goals of the planner driven by a small stand-in for Nav2, under the real bridge and physics.
 
-The planner, the goals' dialogue (ros2.nav2_goals) and the bridge's core are the real ones; Nav2 is
-tests.ros2.small_nav2, which is not Nav2.
+The planner, the goals' dialogue (of the package pons_ros2) and the bridge's core are the real ones;
+Nav2 is tests.ros2.small_nav2, which is not Nav2.
 """
 
 from __future__ import annotations
 
+import json
+from types import SimpleNamespace as Made
 from typing import Any
 
 import pytest
 
 from planner.plan import Code, GoalState
-from ros2.nav2_goals import STATUS_ARRAY, Nav2Goals
-from ros2.operations import AskType, Publish, Subscribe, TopicMessage, TopicType
+from ros2.pons_ros2.pons_ros2.goals import Nav2Dialogue, read_order
 from tests.ros2.small_nav2 import SmallNav2
 from tools.lockstep import GoalHandle, LockstepWorld
 from tools.lockstep.world import STAND_IN_ROBOT
-from wire import Mode, Nav2Goal, Nav2State, Pose2, Waypoints, distance, keys
+from wire import Mode, Nav2State, Pose2, Waypoints, decode, distance, encode, keys
 from wire.keys import Party
 from wire.ros2_config import Nav2Config, Ros2Config
 
-NAV2 = Nav2Config()
-ROS2 = Ros2Config(transport="dds", nav2=NAV2)
+ROS2 = Ros2Config(node="tcp/127.0.0.1:7448", nav2=Nav2Config())
 ROBOT = STAND_IN_ROBOT.model_copy(update={"ros2": ROS2})
 BY_THE_DOOR = Pose2(1.5, 2.0, 1.5)
-TWIST = "geometry_msgs/msg/Twist"
 LIMIT_S = 60.0
 
 
@@ -42,15 +41,16 @@ class Nav2World(LockstepWorld):
 class Graph:
     """Carry topics between the dialogue of goals and the stand-in."""
 
-    def __init__(self, world: LockstepWorld, nav2: SmallNav2, kind: str = TWIST) -> None:
-        self.nav2, self.lives, self._kind = nav2, True, kind
+    def __init__(
+        self, world: LockstepWorld, nav2: SmallNav2, trouble: tuple[str, str] | None = None
+    ) -> None:
+        self.nav2, self.lives = nav2, True
         port = world.bus.port(Party.ROS2)
-        self.goals = Nav2Goals(ROS2, NAV2, "ros2-1")
-        self.goals.open(world.now_s)
+        self.goals = Nav2Dialogue(world.now_s)
+        self.goals.trouble = trouble
         self._orders = port.subscriber(keys.NAV2_GOAL)
         self._says = port.publisher(keys.NAV2_STATE)
         self._statuses: list[Any] = []
-        self.published: list[dict[str, Any]] = []
 
     def turn(self, world: LockstepWorld) -> None:
         if world.bus.tick % 2 or not self.lives:
@@ -58,30 +58,27 @@ class Graph:
         now_s, here = world.now_s, world.truth
         order = self._orders.newest()
         if order is not None:
-            self.goals.take(order, now_s)
-        for request in self.goals.due(now_s):
-            if isinstance(request, AskType):
-                for wanted in self.goals.hear(TopicType(request.topic, self._kind, 1), now_s):
-                    assert wanted == Subscribe(NAV2.cmd_vel, TWIST)
-            elif isinstance(request, Subscribe):
-                assert request == Subscribe(NAV2.status, STATUS_ARRAY, keeps=True)
-            elif isinstance(request, Publish):
-                self.published.append(request.message)
-                self.nav2.hear(request.message, now_s, (here.x_m, here.y_m))
+            self.goals.take(read_order(encode(order).decode()), now_s)
+        pose = self.goals.due(now_s)
+        if pose is not None:
+            self.nav2.hear(pose, now_s, (here.x_m, here.y_m))
         twist = self.nav2.turn(now_s, here.x_m, here.y_m, here.yaw_rad)
         if self.nav2.statuses != self._statuses:
             self._statuses = list(self.nav2.statuses)
-            self.goals.hear(TopicMessage(NAV2.status, self.nav2.status_array()), now_s)
+            self.goals.hear_status(self.nav2.status_array(), now_s)
         if twist is not None and world.bus.tick % 5 == 0:
-            said = {"linear": {"x": twist[0], "y": 0.0, "z": 0.0}, "angular": {"z": twist[1]}}
-            self.goals.hear(TopicMessage(NAV2.cmd_vel, said), now_s)
+            said = Made(linear=Made(x=twist[0], y=0.0), angular=Made(z=twist[1]))
+            self.goals.hear_twist(said, 0.0, now_s)
         if world.bus.tick % 4 == 0:
-            self._says.put(self.goals.state(now_s))
+            said_state = json.dumps(self.goals.state("ros2-1", now_s)).encode()
+            state = decode(keys.NAV2_STATE, said_state)
+            assert isinstance(state, Nav2State)
+            self._says.put(state)
 
 
-def world_of(nav2: SmallNav2, kind: str = TWIST) -> tuple[Nav2World, Graph]:
+def world_of(nav2: SmallNav2, trouble: tuple[str, str] | None = None) -> tuple[Nav2World, Graph]:
     world = Nav2World(robot=ROBOT, seed=3, start=BY_THE_DOOR)
-    graph = world.graph = Graph(world, nav2, kind)
+    graph = world.graph = Graph(world, nav2, trouble)
     world.run(0.5)
     return world, graph
 
@@ -182,7 +179,7 @@ def test_what_nav2_does_not_do_is_told_by_its_code(nav2: SmallNav2, reason: str)
 
 
 def test_a_velocity_of_another_type_is_told_and_moves_nothing() -> None:
-    world, _ = world_of(SmallNav2(), kind="std_msgs/msg/String")
+    world, _ = world_of(SmallNav2(), ("ros2_cmd_vel_type", "/cmd_vel_nav is a String"))
     before = world.truth
     goal = world.say("go to the living room")
     world.run_until(lambda _: ended(goal), 2 * LIMIT_S)
@@ -244,13 +241,3 @@ def test_a_turn_is_a_goal_where_it_stands_and_an_exploration_is_none() -> None:
     assert goal.state is GoalState.SUCCEEDED, world.describe()
     turned = world.truth.yaw_rad - before.yaw_rad
     assert turned == pytest.approx(1.57, abs=0.4)
-
-
-def test_the_dialogue_says_nothing_that_the_wire_does_not_carry() -> None:
-    goals = Nav2Goals(ROS2, NAV2, "ros2-1")
-    state = goals.state(5.0)
-    assert isinstance(state, Nav2State)
-    assert (state.phase, state.mission, state.twist) == ("idle", None, 0)
-    order = Nav2Goal(planner_id="p", seen=1, mission=None, leg=0, goal=None, here=None)
-    goals.take(order, 5.0)
-    assert goals.due(5.0) == [], "not joined"
