@@ -75,7 +75,7 @@ class LegDoubts:
 
 
 class RoutePurpose(StrEnum):
-    """What a way is searched for."""
+    """Name what a way is searched for."""
 
     LEG = "leg"
     """The leg's own way."""
