@@ -194,7 +194,9 @@ def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
         case "go_to_point":
             yield say("account.at_point")
         case "repeat" if step.round > 1:
-            yield say("account.rounds", count=step.round, times=step.times)
+            whole = step.state is StepState.SUCCEEDED and step.round == step.times
+            code = "account.all_rounds" if whole else "account.rounds"
+            yield say(code, count=step.round, times=step.times)
 
 
 def _amount(step: StepRecord) -> Bilingual:
