@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import difflib
 import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -66,7 +67,15 @@ def describe_syntax(text: str, error: ValueError) -> str:
 
 
 def find_broken_line(error: BaseException) -> str:
-    """Return where a text is no TOML, in brackets and without a word of it; '' where unknown."""
+    """Return where a text is no TOML, in brackets and without a word of it; '' where unknown.
+
+    Of bytes that are no UTF-8 it tells the line, and the encoding that they begin with.
+    """
+    if isinstance(error, UnicodeDecodeError):
+        if error.object.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+            return " (it is in UTF-16; save it as UTF-8)"
+        line = error.object[: error.start].count(b"\n") + 1
+        return f" (line {line} is in another encoding; save the file as UTF-8)"
     at = _PLACE.search(str(error))
     return f" (line {at[1]})" if at else ""
 

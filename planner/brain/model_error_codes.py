@@ -51,7 +51,7 @@ _UNSEEN = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 def tell_failure(code: str, server: str = "") -> Bilingual:
     """Return the sentence of a code, with what the server itself said: bounded, and in quotes."""
     plain = "".join(each for each in server if unicodedata.category(each) not in _UNSEEN)
-    words = " ".join(plain.split())[:MOST_SAID]
+    words = " ".join(plain.split())[:MOST_SAID].rstrip(" .。")  # the quotation ends our sentence
     return join((reason(code), say("model_error.said", words=words))) if words else reason(code)
 
 

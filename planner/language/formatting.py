@@ -29,4 +29,4 @@ def angle(radians: float) -> Bilingual:
 def metres(distance_m: float) -> Bilingual:
     """Say a distance and its direction."""
     code = "amount.backwards" if distance_m < 0.0 else "amount.forward"
-    return say(code, distance_m=abs(distance_m))
+    return say(code, distance_m=abs(round(distance_m, 2)))  # a hair's breadth is 0, and no 2e-05

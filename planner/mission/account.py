@@ -98,6 +98,8 @@ def _tell_steps(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
     mended = _find_replan(mission)
     for index, step in enumerate(steps):
         if step.kind in DRIVEN and step.state is StepState.SUCCEEDED:
+            if _is_answered_there(steps, index):
+                continue
             name = place_name(facts, mission, step)
             if not _failed_later(facts, mission, index):
                 arrived.append(name)
@@ -114,6 +116,15 @@ def _tell_steps(facts: SiteView, mission: Mission) -> Iterator[Bilingual]:
         instead = instead or (step.state is StepState.FAILED and index < mended)
     if arrived:
         yield from _after(_tell_arrivals(arrived), instead=instead)
+
+
+def _is_answered_there(steps: Sequence[StepRecord], index: int) -> bool:
+    """Tell whether a drive led to what was looked at next: that answer names it, and is first."""
+    row = steps[index : index + 2]
+    if len(row) < 2 or row[0].place is None or row[0].place != row[1].place:
+        return False
+    looked = row[1].kind in ("look", "count") and row[1].state is StepState.SUCCEEDED
+    return looked and row[1].said is not None
 
 
 def _after(sentence: Bilingual, *, instead: bool) -> Iterator[Bilingual]:
@@ -183,7 +194,9 @@ def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
         case "go_to_point":
             yield say("account.at_point")
         case "repeat" if step.round > 1:
-            yield say("account.rounds", count=step.round, times=step.times)
+            whole = step.state is StepState.SUCCEEDED and step.round == step.times
+            code = "account.all_rounds" if whole else "account.rounds"
+            yield say(code, count=step.round, times=step.times)
 
 
 def _amount(step: StepRecord) -> Bilingual:

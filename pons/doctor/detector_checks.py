@@ -37,7 +37,8 @@ def detector(home: Path, robot: RobotDescription) -> HealthFinding:
     try:
         chosen = load_settings(home, os.environ).vision
     except ConfigError as wrong:
-        return fail(NAME, BilingualWords(str(wrong), str(wrong)), _FIX)
+        cure = BilingualWords("mend settings.toml", "请修正 settings.toml")
+        return fail(NAME, BilingualWords(str(wrong), str(wrong)), cure)
     try:
         about = asyncio.run(_open(chosen))
     except VisionFailure as failure:

@@ -115,3 +115,17 @@ def test_the_broken_line_is_told_without_a_word_of_it() -> None:
         tomllib.loads(f"a = 1\nkey = “{SECRET}”\n")
     assert find_broken_line(broken.value) == " (line 2)"
     assert find_broken_line(ValueError(SECRET)) == ""
+
+
+@pytest.mark.parametrize(
+    ("encoding", "told"),
+    [("utf-16", "it is in UTF-16"), ("gbk", "line 2 is in another encoding")],
+)
+def test_of_a_file_in_another_encoding_the_cure_is_told(encoding: str, told: str) -> None:
+    written = f"[model]\n# 密钥 {SECRET}\n".encode(encoding)
+    with pytest.raises(UnicodeDecodeError) as broken:
+        written.decode()
+    said = find_broken_line(broken.value)
+    assert told in said
+    assert "UTF-8" in said
+    assert SECRET not in said

@@ -26,8 +26,8 @@ _FILTERED = frozenset({"content_filter", "data_inspection_failed"})
 
 
 def complaint_of(content: object) -> str:
-    """Return a server's words about an error, in one short line."""
-    words = content
+    """Return a server's words about an error, in one short line; none of a body that was no JSON."""
+    words = "" if content is None else content
     for _ in range(3):
         if not isinstance(words, dict):
             break

@@ -200,7 +200,7 @@ def test_rounds_are_counted_and_told() -> None:
     assert mission.state is GoalState.SUCCEEDED
     assert mission.steps[0].round == 2
     assert mission.outcome is not None
-    assert mission.outcome.message.en.startswith("2 of 2 rounds: Yes, I see a cup")
+    assert mission.outcome.message.en.startswith("2 times: Yes, I see a cup")
 
 
 def test_a_repeat_ends_as_soon_as_it_holds_and_fails_where_it_never_does() -> None:

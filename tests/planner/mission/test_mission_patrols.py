@@ -167,7 +167,7 @@ def test_rounds_look_at_every_stop_again() -> None:
         )
     )
     assert mission.state is GoalState.SUCCEEDED
-    assert told(mission) == "2 of 2 rounds: hall: a cup. I said “x”."
+    assert told(mission) == "2 times: hall: a cup. I said “x”."
 
 
 @pytest.mark.parametrize("place", ["hall", "kitchen"])

@@ -191,7 +191,7 @@ def test_only_a_place_that_was_driven_to_was_visited() -> None:
     name, now = Bilingual(en="hall", zh="门厅"), datetime.fromtimestamp(NOW_S).astimezone()
     assert tell_deeds((visit,), "today", now, name).en.startswith("I was at “hall” today: ")
     assert tell_deeds((), "yesterday", now, name) == Bilingual(
-        en="I remember nothing of being at “hall” yesterday.", zh="我不记得昨天去过“门厅”。"
+        en="I don't remember being at “hall” yesterday.", zh="我不记得昨天去过“门厅”。"
     )
 
 
@@ -227,7 +227,7 @@ def test_branches_hang_on_what_was_seen_and_never_on_what_was_told(tmp_path: Pat
         async with remembering(tmp_path, CHOOSES, CHOOSES) as (together, store):
             store.teach("the red cup is in the kitchen", NOW_S, said_by="page")
             unseen = await say(together, "in case you saw the red cup there, tell me, hm")
-            assert "I remember nothing of “red cup” in the kitchen." in told(unseen)
+            assert "I don't remember “red cup” in the kitchen." in told(unseen)
             assert "I said “not seen”." in told(unseen)
             assert "find the red cup" not in told(unseen), "a condition offers nothing"
             store.see([CUP])

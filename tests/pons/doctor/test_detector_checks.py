@@ -61,6 +61,14 @@ def test_settings_that_can_t_be_read_are_said(tmp_path: Path) -> None:
     assert looked(tmp_path, "modle = 1").verdict is HealthVerdict.FAIL
 
 
+def test_settings_that_can_t_be_read_have_their_own_cure(tmp_path: Path) -> None:
+    (tmp_path / "settings.toml").write_text("[mission]\nbogus = 1\n")
+    found = detector(tmp_path, RobotDescription())
+    assert found.verdict is HealthVerdict.FAIL
+    assert found.fix is not None
+    assert found.fix.en == "mend settings.toml"
+
+
 def test_without_any_it_warns_that_nothing_is_seen(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
