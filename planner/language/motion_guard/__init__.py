@@ -1,7 +1,8 @@
 """Judge by a person's own words which steps of a plan move the robot though nobody asked for it.
 
-Each step names the words that ask for it; the clause around them is judged. Shares no code with any
-brain, and asks none.
+Each step names the words that ask for it; the clause around them is judged. Asks no brain what a
+sentence means; the learned reader's word that it orders nothing may add a question, and spares
+none.
 """
 
 from planner.language.motion_guard.clauses import denied_places

@@ -5,7 +5,8 @@ is judged, never the words alone. It must be an order to the robot that is not d
 supposed or somebody else's; it names the place, or leads to the one place that the words name; what
 stands on a condition is done in a branch. Only what a person said counts, never what a brain asked
 (a plain yes makes the question that it answers the person's own). In doubt a step is unasked: a
-person is then asked, and nothing else.
+person is then asked, and nothing else. Where all is asked for by these laws, but the learned reader
+is sure that the sentence orders nothing, nothing counts as asked for.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from planner.language.motion_guard.meant_places import GAP, MeantPlaces, join_cl
 from planner.language.motion_guard.mentioned_names import places_named, plain
 from planner.language.motion_guard.step_words import evidence, makes_way, moves, unsaid_kind
 from planner.language.questions import looks_round
+from planner.language.semantic_parser.parser import still_share
 from planner.language.yes_no import consents
 from planner.plan import (
     ClockTime,
@@ -61,6 +63,8 @@ _ROUNDS_SAID = re.compile(
     rf"{_REPEATS.pattern}|\b(?:until|till|while|as long as|every|for [a-z0-9]+ (?:minutes?|hours?"
     r"|seconds?)|rounds?)\b|直到|等到|为止|每|分钟|小时|秒|轮"
 )
+_STILL = 0.9
+"""From this share on the learned reader's word adds a question; it never spares one."""
 _BACK = re.compile(r"\bback\b|回[来去]|[带领送]回")
 
 
@@ -128,7 +132,16 @@ def find_unasked(
             why = judge.find_fault(row, index, quoted, upon=waited)
             found += [UnaskedStep(index, why)] if why else []
         waited = waited or node.step.kind in _WAITS
-    return tuple(found)
+    if found or by_all_words or not _orders_nothing(person, vocabulary):
+        return tuple(found)
+    why = "the learned reader hears no order to drive in these words"
+    return tuple(UnaskedStep(i, why) for i, node in enumerate(row) if can_move(node.step))
+
+
+def _orders_nothing(person: PersonWords, vocabulary: Vocabulary) -> bool:
+    """Tell whether the learned reader takes a person's words for no order; what leans, it can't."""
+    alone = len(person.words) == 1 and not person.agreed
+    return alone and still_share(person.words[0], vocabulary) >= _STILL
 
 
 class _Judge:

@@ -96,3 +96,14 @@ def decode_plan(
         walk.take(action)
         actions.append(action)
     return ParsedPlan(read_actions(actions, said), exp(log_probability))
+
+
+def first_forms(network: PointerNetwork, said: SentenceUnits) -> dict[str, float]:
+    """Return how likely it is, by form, that the plan of a sentence begins with it."""
+    encoded, walk = network.encode(sentence_features(said.units)), GrammarWalk()
+    memory, nothing = network.begin(len(said.units)), network.token(0)
+    scores, _ = network.step(encoded, memory, nothing, walk.part_number)
+    forms = sorted(walk.next_actions().tokens)
+    joint = scores[[TOKEN_NUMBERS[form] for form in forms]]
+    shares = np.exp(joint - joint.max())
+    return dict(zip(forms, (shares / shares.sum()).tolist(), strict=True))

@@ -366,3 +366,23 @@ def test_who_has_read_every_word_needs_no_quotes() -> None:
     for text, asked in (("go to the kichen", False), ("maybe go to the kitchen", True)):
         found = find_unasked(made, PersonWords((text,)), HOME, by_all_words=True)
         assert bool(found) is asked, text
+
+
+@pytest.mark.parametrize(
+    ("said", "place"),
+    [
+        ("Come to think of it, the kitchen was always too small for us", "kitchen"),
+        ("到头来还是厨房最暖和", "kitchen"),
+        ("看把你能的，书房都认得", "study"),
+    ],
+)
+def test_what_only_looks_like_an_order_is_asked_about_by_the_learned_readers_word(
+    said: str, place: str
+) -> None:
+    step = GoTo(place=place)
+    asked = StepPlan(steps=(step,), asked_by=(said,))
+    (found,) = find_unasked(asked, PersonWords((said,)), HOME)
+    assert "learned reader" in found.why
+    spoken = PersonWords(("please tidy up", said))
+    assert not any("learned" in each.why for each in find_unasked(asked, spoken, HOME))
+    assert not find_unasked(asked, PersonWords((said,), agreed=(said,)), HOME)
