@@ -26,7 +26,7 @@ _FILTERED = frozenset({"content_filter", "data_inspection_failed"})
 
 
 def complaint_of(content: object) -> str:
-    """Return a server's words about an error, in one short line; none of a body that was no JSON."""
+    """Return a server's words about an error, in one short line; none without JSON."""
     words = "" if content is None else content
     for _ in range(3):
         if not isinstance(words, dict):
