@@ -35,7 +35,7 @@ _PLACED_EN = r"(?: (?:on|near|next to|beside|by|under|behind|in front of|at|insi
 _PLACED_PERSON_EN = _PLACED_EN.replace("|inside|in)", ")")
 """People "in red" wear it: clothes cannot be told, so such a phrase is not cut short."""
 _COUNT_ZH = (
-    r"(?:这|那|某|每|所有的?|全部的?|任何|一些|几|多少|半|一|二|两|三|四|五|六|七|八|九|十|\d{1,3}|"
+    r"(?:这|那|某|每|所有的?|全部的?|任何|一些|几|多少|半|一|二|两|三|四|五|六|七|八|九|十|\d{1,3}(?!\d)|"
     r"我们的|我的|你的|您的|他的|她的|家里的|最近的|附近的|另外?|其他|其它|别的|大的?|小的?|"
     r"个|只|张|把|台|瓶|杯|本|盆|棵|株|扇|位|名|条|件|罐|支|双|辆|架|块|面|口|盏|头|匹|颗|副|部|间|些|款)"
 )

@@ -35,6 +35,7 @@ from planner.plan import (
     If,
     Look,
     Patrol,
+    PlanRole,
     Repeat,
     Step,
     StepNode,
@@ -132,7 +133,9 @@ def find_unasked(
             why = judge.find_fault(row, index, quoted, upon=waited)
             found += [UnaskedStep(index, why)] if why else []
         waited = waited or node.step.kind in _WAITS
-    if found or by_all_words or not _orders_nothing(person, vocabulary):
+    # The reader hears the sentence alone: what replaces or follows an order leans on that.
+    stands_alone = made.does is PlanRole.NEW and not by_all_words
+    if found or not stands_alone or not _orders_nothing(person, vocabulary):
         return tuple(found)
     why = "the learned reader hears no order to drive in these words"
     return tuple(UnaskedStep(i, why) for i, node in enumerate(row) if can_move(node.step))
