@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 CAUSAL_S = 0.4
 RECEIPT_S = 0.25
+VOIDED = "stick"
+"""Names the hand in what is held once a new epoch has voided it."""
 
 
 def hear_teleop(tick: TickContext, new: Velocity) -> None:
@@ -49,9 +51,11 @@ def hear_teleop(tick: TickContext, new: Velocity) -> None:
 
 
 def watch(tick: TickContext) -> None:
-    """Let a silent or stale stick go."""
+    """Let a silent or stale stick go, and one that a new epoch has voided while it steered."""
     hand = tick.s.stick
     if hand.source_id is None:
+        if tick.s.mode is Mode.TELEOP:
+            _release(tick, "teleop_stale")
         return
     fresh = tick.now_s - hand.received_s <= RECEIPT_S and tick.now_s - hand.sent_s <= CAUSAL_S
     if not fresh:
@@ -103,7 +107,7 @@ def _steer(tick: TickContext, new: Velocity, sent_s: float) -> None:
 def _release(tick: TickContext, why: str) -> None:
     """End teleop: HOLD, held, and the same hand must show itself released and neutral anew."""
     s = tick.s
-    source_id = s.stick.source_id or ""
+    source_id = s.stick.source_id or VOIDED
     stick.let_go(tick)
     if s.mode is Mode.TELEOP and go(tick, Fact.RELEASED, why):
         hold(tick, HeldReason.TELEOP, source_id)

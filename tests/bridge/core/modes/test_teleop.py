@@ -158,3 +158,19 @@ def test_a_silent_stick_lets_go() -> None:
     world.tick()
     assert world.is_in(Mode.HOLD)
     assert world.state.stick.source_id is None
+
+
+def test_a_hand_that_a_new_epoch_has_voided_leaves_the_mode_too() -> None:
+    """A brain that falls silent and comes back must leave no robot that waits for a hand's end."""
+    world = reached("teleop")
+    world.planner = None
+    world.teleop(0.0, held=True)
+    for _ in range(300):
+        if world.state.stick.source_id is None:
+            break
+        world.teleop(0.0, held=True)
+        world.tick()
+    world.run(0.1)
+    assert world.is_in(Mode.HOLD)
+    assert world.state.held is not None
+    assert world.state.held.reason is HeldReason.TELEOP
