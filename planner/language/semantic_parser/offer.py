@@ -97,9 +97,9 @@ def offer_plan(
     node, is_sure = read.plan[0], read.confidence >= SURER
     has_offer = isinstance(told, Clarify) and bool(told.options)
     if node.form in _TALK:
-        # What is beyond the robot keeps the part that the rules offer; a remark has none.
-        is_kept = told.code in _BEYOND and (node.form == "refuse" or not has_offer)
-        if not is_sure or is_kept or (told.code is Code.NEGATED and not has_offer):
+        # What is beyond the robot keeps what the rules say of it, and the part that they offer.
+        is_told = told.code in _BEYOND or (told.code is Code.NEGATED and not has_offer)
+        if not is_sure or is_told:
             return None
         return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
     if told.code in _BEYOND and has_offer and node.form not in CHANGES:  # a part of it is offered
