@@ -50,6 +50,7 @@ _SAID = re.compile(
 )
 _THERE = re.compile(r"\b(?:there|in)\b|那[里儿边]|[过进]去")
 """What leans on the place that was named last."""
+_ASKS_HOW_IT_IS = re.compile(r"(?:is|are)\b")
 _AT = re.compile(r"\b(?:in|at|on|by|to|near)(?: (?:the|my|our))? $")
 
 
@@ -168,7 +169,9 @@ def _is_beyond(words: str, rest: str, table: ClauseWords, vocabulary: Vocabulary
     verb = strip_openers(strip_openers(rest, table.to_you), table.opens)
     places = find_places(words, vocabulary)
     blotted = _blot(words, places)
-    tails = (blotted[p.end :].lstrip(" 里上并和后再") for p in places)
+    # Behind "is the fridge" stands how it is ("open"), and no work.
+    held = () if _ASKS_HOW_IT_IS.match(rest) else places
+    tails = (blotted[p.end :].lstrip(" 里上并和后再") for p in held)
     parts = (blotted, _blot(verb, find_places(verb, vocabulary)), *tails)
     return any(table.beyond.match(re.sub(r"[\s·]+", " ", each)) for each in parts)
 

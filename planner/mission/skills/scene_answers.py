@@ -65,7 +65,7 @@ def answer(scene: Scene[Any], question: str) -> SceneAnswer:
     inside, since_s = make_filter(scene), scene.now_s - scene.spent_s
     seen = drop_doubles(t for t in list_confirmed(scene.sight, None, since_s) if inside(t))
     fitting = tuple(t for t in seen if fits(t, sought.what))
-    at = _at(scene, sought.by)
+    at = _at(scene, sought.by or sought.what)
     if sought.what is not None and not sought.is_presence:
         return SceneAnswer(_tell_without_judging(sought.what, fitting, at, scene.eyes.model))
     if sought.by is not None and sought.relation is not None:
@@ -180,14 +180,14 @@ def _name_things(things: Things, what: WantedObject | None) -> Bilingual:
     )
 
 
-def _at(scene: Scene[Any], by: WantedObject | None) -> Bilingual:
-    """Say where was looked; nothing of a place that is the neighbour itself."""
+def _at(scene: Scene[Any], named: WantedObject | None) -> Bilingual:
+    """Say where was looked; nothing of a place that is the thing itself, or its neighbour."""
     target = scene.facts.targets.get(scene.step.place or "")
     if target is None:
         return say_same("")
     if target.room:
         return say("scene.in", name=target.name)
-    if by is not None and (resolve(target.name.en) or ("",))[0] == by.label:
+    if named is not None and (resolve(target.name.en) or ("",))[0] == named.label:
         return say_same("")
     return say("scene.near", name=target.name)
 

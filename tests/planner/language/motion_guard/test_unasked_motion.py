@@ -386,3 +386,13 @@ def test_what_only_looks_like_an_order_is_asked_about_by_the_learned_readers_wor
     spoken = PersonWords(("please tidy up", said))
     assert not any("learned" in each.why for each in find_unasked(asked, spoken, HOME))
     assert not find_unasked(asked, PersonWords((said,), agreed=(said,)), HOME)
+
+
+@pytest.mark.parametrize("state", ["open", "tidy", "clean", "shut", "dark", "empty", "locked"])
+@pytest.mark.parametrize("verb", ["is", "are"])
+def test_how_a_place_is_names_no_work_for_an_arm(state: str, verb: str) -> None:
+    look = Look(question="how is it?", place="kitchen")
+    assert unasked(f"{verb} the kitchen {state}?", KITCHEN, look) == ()
+    assert unasked(f"go to the kitchen and {state} it", KITCHEN) == (
+        (0,) if state in ("open", "tidy", "clean") else ()
+    )

@@ -149,6 +149,15 @@ def test_a_place_that_is_the_neighbour_itself_is_named_once(
     assert (told.said.en, told.said.zh) == (en, zh)
 
 
+def test_how_a_place_is_that_is_the_thing_itself_is_told_without_naming_it_twice() -> None:
+    place = Target("table", False, Bilingual(en="table", zh="桌子"), Pose2(1.6, 0.0, 0.0))
+    facts = SiteView({**FACTS.targets, "table": place}, home="table")
+    told = asked("is the table clean?", ON_IT, place="table", facts=facts)
+    assert told.said == Bilingual(
+        en="I can't tell: I see no table.", zh="我不能确定：没有看到桌子。"
+    )
+
+
 def test_an_unknown_kind_is_asked_about_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[str] = []
     look = sys.modules["planner.mission.skills.look"]  # its door has the function by that name
