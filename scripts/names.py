@@ -94,11 +94,16 @@ def read_known(text: str) -> Counter[str]:
 
 
 def read_tracked(root: Path = ROOT) -> dict[str, str]:
-    """Return the Python sources that git tracks; a test is named by what it says."""
+    """Return the Python sources but tests that git tracks; a test is named by what it says."""
+    return {p: text for p, text in list_sources(root).items() if not p.startswith("tests/")}
+
+
+def list_sources(root: Path = ROOT) -> dict[str, str]:
+    """Return the text of each Python file that git tracks, by its path."""
     listed = subprocess.run(
         ["git", "ls-files", "-z", "*.py"], cwd=root, capture_output=True, text=True, check=True
     ).stdout
-    names = [name for name in listed.split("\0") if name and not name.startswith("tests/")]
+    names = [name for name in listed.split("\0") if name]
     return {name: (root / name).read_text("utf-8") for name in names if (root / name).is_file()}
 
 
