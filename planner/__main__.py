@@ -7,6 +7,7 @@ import logging
 import os
 import signal
 import sys
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -47,6 +48,7 @@ def main(arguments: list[str] | None = None) -> int:
     except ConfigError as wrong:  # a SiteError is one
         print(f"planner: {wrong}", file=sys.stderr)
         return wrong.exit_status
+    access = replace(access, find_person=planner.people.find)
     set_local_zone(planner.settings.orders.timezone)
     server = uvicorn.Server(
         uvicorn.Config(

@@ -23,6 +23,7 @@ from planner.mission.memory_lookup import step_kind
 from planner.mission.skills.spatial_relations import support_of
 from planner.navigation import RouteLimits, RouteWorker
 from planner.orders.factory import standing_orders_of
+from planner.people import People
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of, picture_limits, spent_by
 from planner.plan_display import PlanDisplay
@@ -77,8 +78,8 @@ class Planner:
         """
         self.setup = ProcessSwitch(is_there=where.may_set_up)
         self.settings = load_settings(where.home, os.environ)
-        self._state = StateDatabase(where.home)
-        self._state.put_aside_if_spoilt()
+        self._state = _state_of(where.home)
+        self.people = People(self._state)
         self.budget = purse_of(self.settings, where.home, self._state)
         self.replies = collector_of(self.settings)
         self._model = _model(self.settings, where.home, self.budget, self.replies)
@@ -224,6 +225,13 @@ def _model(
     warm_up()
     log.info("plans come from %s at %s", model.tag.name, model.address.host)
     return model
+
+
+def _state_of(home: Path) -> StateDatabase:
+    """Return the database of a home, a new one in the place of a file that is spoilt."""
+    state = StateDatabase(home)
+    state.put_aside_if_spoilt()
+    return state
 
 
 def _brain(model: EndpointBrain | None, settings: Settings) -> Brain:

@@ -25,6 +25,7 @@ class _EmptyServices:
     fences = None
     eyes = None
     orders = None
+    people = None
 
     def __init__(self) -> None:
         self.site = Site.load(SITES / "two_room")

@@ -31,6 +31,11 @@ _MEMORY = (
     """CREATE TRIGGER memory_gone AFTER DELETE ON memory
     BEGIN DELETE FROM memory_terms WHERE rowid = old.id; END""",
 )
-SCHEMAS = (tuple(filter(str.strip, _TABLES.split(";"))), _MEMORY)
+_PEOPLE = (
+    """CREATE TABLE people (
+    print TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, role TEXT NOT NULL,
+    since TEXT NOT NULL) WITHOUT ROWID""",
+)
+SCHEMAS = (tuple(filter(str.strip, _TABLES.split(";"))), _MEMORY, _PEOPLE)
 """What each version adds to the one before; a home of an older version is brought forward."""
 VERSION = len(SCHEMAS)

@@ -16,7 +16,7 @@ from pons_assets import IS_INSTALLED, needs_checkout
 EXIT_USAGE = 2
 _FOLLOW = frozenset({
     "say", "answer", "confirm", "cancel", "pause", "resume", "places", "orders", "replies", "why",
-    "arm", "reset",
+    "arm", "reset", "people",
 })  # fmt: skip
 """Words to a robot that runs: in a folder without one, this user's only one is meant."""
 EXIT_UNREAD = 141
@@ -155,7 +155,7 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
 
 _BARE_TOOLS = frozenset({"tls", "why", "key"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
-_PLANNERS = frozenset({"places", "orders", "replies"})
+_PLANNERS = frozenset({"places", "orders", "replies", "people"})
 _TOOLS = _BARE_TOOLS | _PLANNERS | {
     "doctor", "braking", "fence", "calibrate", "fault", "replay", "detect",
 }  # fmt: skip
@@ -218,6 +218,10 @@ def _ask_planner(settings: LaunchSettings, said: argparse.Namespace) -> int:
         from pons import orders
 
         return orders.run(settings, said.act, said.words, as_json=said.json)
+    if said.word == "people":
+        from pons import people
+
+        return people.run(settings, said.act, said.name, role=said.role, as_json=said.json)
     from pons import replies
 
     return replies.run(settings, said.goal)

@@ -62,7 +62,7 @@ def parser() -> argparse.ArgumentParser:
     fenced = words.add_parser("fence", help="show, propose, accept or reject a fence")
     fenced.add_argument("act", choices=("show", "propose", "accept", "reject"))
     fenced.add_argument("what", nargs="?", help="a file to propose, or a proposal's id")
-    _places(words)
+    _places_and_people(words)
     kept = words.add_parser("orders", help="list standing orders, add, show, pause, remove one")
     kept.add_argument("act", nargs="?", default="list",
                       choices=("list", "add", "show", "pause", "resume", "skip",
@@ -150,13 +150,18 @@ def _detect(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     word.add_argument("--out", type=Path, metavar="FILE", help="write the picture with its boxes")
 
 
-def _places(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def _places_and_people(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     word = words.add_parser("places", help="list the places, remember one here, forget one")
     word.add_argument(
         "act", nargs="?", choices=("list", "export", "remember", "forget"), default="list"
     )
     word.add_argument("name", nargs="?", help="its name")
     word.add_argument("--zh", metavar="NAME", help="its Chinese name, beside or alone")
+    people = words.add_parser("people", help="list who may use the robot, add or remove somebody")
+    people.add_argument("act", nargs="?", choices=("list", "add", "remove"), default="list")
+    people.add_argument("name", nargs="?", help="whom to add (a name), or to remove (an id)")
+    people.add_argument("--role", choices=("operator", "viewer"), default="operator")
+    people.add_argument("--json", action="store_true")
 
 
 def _calibrate(words: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

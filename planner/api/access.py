@@ -11,15 +11,13 @@ import hmac
 import ipaddress
 import re
 from dataclasses import dataclass
-from enum import StrEnum
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
+from planner.people import Person, Role
 
-class Role(StrEnum):
-    """Name how far a token's bearer may go."""
-
-    VIEWER = "viewer"
-    OPERATOR = "operator"
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
 class AccessError(Exception):
@@ -43,6 +41,8 @@ STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
 OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?")
 """What a viewer may not even read: people's words and words out of pictures may stand in it."""
+PEOPLE_PATH = "/v1/people"
+"""The owner's to change: who could add people could add a way in that outlives a removal."""
 
 
 FORWARDED = ("forwarded", "via")
@@ -72,6 +72,8 @@ class Access:
     origins: frozenset[str] = frozenset()
     operator_token: str = ""
     viewer_token: str = ""
+    find_person: Callable[[str], Person | None] = lambda _: None
+    """Gives the person of a token, or None."""
     speaks_tls: bool = False
     """A page that came without TLS may then not ask: who is on the path could have written it."""
 
@@ -95,10 +97,11 @@ class Access:
         self._check_proxy(path, headers)
         if method in SAFE_METHODS and not websocket and _is_page(path):
             return Role.VIEWER  # the page holds no secret, and a browser asks for it without token
-        token = _bearer(headers.get("authorization", ""))
-        if websocket and not token:
-            token = _find_token(headers.get("sec-websocket-protocol", ""))
+        token = _token_of(headers, websocket=websocket)
         role = self._role(token)
+        changes = method not in SAFE_METHODS
+        if changes and path.startswith(PEOPLE_PATH) and not self._is_owner(token):
+            raise AccessError(403, "owner_needed", f"{method} {path[:80]} is the owner's alone")
         if role is not Role.OPERATOR and OPERATORS_READING.fullmatch(path):
             detail = f"the viewer's token came; {method} {path[:80]} needs the operator's"
             raise AccessError(403, "operator_needed", detail)
@@ -108,6 +111,16 @@ class Access:
             if role is not Role.OPERATOR:
                 raise AccessError(403, "operator_needed", _viewers_limit(method, path))
         return role
+
+    def person(self, headers: dict[str, str], *, websocket: bool = False) -> Person | None:
+        """Return the person whose token came; None for the owner's, the viewer's and none."""
+        return self.find_person(_token_of(headers, websocket=websocket))
+
+    def _is_owner(self, token: str) -> bool:
+        """Say whether the owner asks: with the operator's token, or from here where none is set."""
+        if self.find_person(token) is not None:
+            return False
+        return self._trusts_loopback or _is_same(token, self.operator_token)
 
     def _check_host(self, host: str) -> None:
         name = _hostname(f"//{host}")
@@ -142,6 +155,9 @@ class Access:
         return self.loopback and not self.operator_token
 
     def _role(self, token: str) -> Role:
+        person = self.find_person(token)
+        if person is not None:
+            return person.role
         if self._trusts_loopback:
             return Role.OPERATOR
         if _is_same(token, self.operator_token):
@@ -179,6 +195,14 @@ def _hostname(address: str) -> str:
 
 def _is_page(path: str) -> bool:
     return path in ("/", AUTHORITY_PATH) or path.startswith("/assets/")
+
+
+def _token_of(headers: dict[str, str], *, websocket: bool) -> str:
+    """Return the token that came, in a header or as a WebSocket's subprotocol; empty if none."""
+    token = _bearer(headers.get("authorization", ""))
+    if websocket and not token:
+        token = _find_token(headers.get("sec-websocket-protocol", ""))
+    return token
 
 
 def _bearer(authorization: str) -> str:

@@ -10,6 +10,7 @@ from planner.api.crowd import address_of
 from planner.api.interfaces import Services
 from planner.api.listing import list_goals
 from planner.api.operator import act_behind, persons_act
+from planner.api.people import source_of
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
 from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalMove, GoalOrder, GoalReply, NewGoal
@@ -101,6 +102,7 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
             replace=new.replace,
             idempotency_key=idempotency_key,
             act=act,
+            source=source_of(request, "api"),
         )
 
     @router.get("", operation_id="list_goals")

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from planner.mission import Leg
     from planner.navigation import ObstacleReport
     from planner.orders.factory import StandingOrders
+    from planner.people import People
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
     from planner.site import FenceProposals, KnownPlaces, Site
@@ -64,6 +65,7 @@ class Goals(Protocol):
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
+        source: str = "api",
     ) -> Goal: ...
 
     @property
@@ -239,3 +241,6 @@ class Services(Protocol):
 
     @property
     def recollection(self) -> Recollection: ...
+
+    @property
+    def people(self) -> People: ...

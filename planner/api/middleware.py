@@ -86,7 +86,8 @@ class Guard:
                 await self._guesses.slow(scope.get("client"))
             await _refuse(refusal, scope, receive, send)
             return
-        scope["state"] = {**scope.get("state", {}), "role": role}
+        person = self._access.person(headers, websocket=websocket)
+        scope["state"] = {**scope.get("state", {}), "role": role, "person": person}
         if websocket:
             await self._app(scope, receive, send)
         else:

@@ -17,6 +17,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
 
 from planner.api.interfaces import Robot, Services
+from planner.api.people import source_of
 from planner.api.problems import HttpProblem
 from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.language.sentence import SaidSentence
@@ -46,40 +47,40 @@ def _stopping(services: Services) -> APIRouter:
     robot = services.robot
 
     @router.post("/stop", operation_id="stop")
-    async def stop(order: StopOrder | None = None) -> dict[str, Any]:
+    async def stop(request: Request, order: StopOrder | None = None) -> dict[str, Any]:
         """Stop now and hold until a person acts. Never refused."""
-        stopped = await services.goals.stop((order or StopOrder()).source)
+        stopped = await services.goals.stop(source_of(request, (order or StopOrder()).source))
         status = robot.status
         return {"confirmed": stopped.is_echoed, "mode": status.mode if status else None}
 
     @router.post("/estop", operation_id="estop")
-    async def estop(order: OperatorOrder | None = None) -> Answer:
+    async def estop(request: Request, order: OperatorOrder | None = None) -> Answer:
         """Make a protective stop, latched until reset."""
-        return await act(robot, "estop", order)
+        return await act(robot, "estop", order, by=request)
 
     @router.post("/disarm", operation_id="disarm")
-    async def disarm(order: OperatorOrder | None = None) -> Answer:
+    async def disarm(request: Request, order: OperatorOrder | None = None) -> Answer:
         """Ramp to zero, then take the torque away."""
-        return await act(robot, "disarm", order)
+        return await act(robot, "disarm", order, by=request)
 
     return router
 
 
 def _powering(router: APIRouter, robot: Robot) -> None:
     @router.post("/arm", operation_id="arm")
-    async def arm(order: OperatorOrder | None = None) -> Answer:
+    async def arm(request: Request, order: OperatorOrder | None = None) -> Answer:
         """Power the drive, standing."""
-        return await act(robot, "arm", order)
+        return await act(robot, "arm", order, by=request)
 
     @router.post("/reset", operation_id="reset")
-    async def reset(order: OperatorOrder | None = None) -> Answer:
+    async def reset(request: Request, order: OperatorOrder | None = None) -> Answer:
         """Leave a latched state; never moves the robot."""
-        return await act(robot, "reset", order)
+        return await act(robot, "reset", order, by=request)
 
     @router.post("/resume", operation_id="resume")
-    async def resume(order: OperatorOrder | None = None) -> Answer:
+    async def resume(request: Request, order: OperatorOrder | None = None) -> Answer:
         """Clear the hold of a stop, a take-over or a restart."""
-        return await act(robot, "resume", order)
+        return await act(robot, "resume", order, by=request)
 
     @router.post("/teleop", operation_id="teleop", status_code=202)
     async def teleop(steer: Steer) -> dict[str, Any]:
@@ -88,14 +89,15 @@ def _powering(router: APIRouter, robot: Robot) -> None:
         return {"mode": robot.status.mode if robot.status else None}
 
 
-async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None) -> Answer:
-    """Ask the bridge and return its verdict.
+async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None, *, by: Request) -> Answer:
+    """Ask the bridge in the name of who asked, and return its verdict.
 
     Raises:
         HttpProblem: ``bridge_silent``, ``operator_proof_needed`` or the bridge's own refusal code.
     """
     asked = order or OperatorOrder()
-    answer = await robot.ask(kind, request(robot, kind, asked.source, asked.operator))
+    source = source_of(by, asked.source)
+    answer = await robot.ask(kind, request(robot, kind, source, asked.operator))
     if answer is None:
         raise HttpProblem(503, "bridge_silent", f"the bridge did not answer {kind} within 2 s")
     if not answer.accepted:

@@ -145,6 +145,7 @@ def open_page(browser: Browser, robot: Robot) -> Iterator[OpenPage]:
         size: tuple[int, int] = LAPTOP,
         locale: str = "en-US",
         before: Callable[[Page], Any] | None = None,
+        fragment: str = "",
         **more: Any,
     ) -> Page:
         viewport = {"width": size[0], "height": size[1]}
@@ -156,7 +157,7 @@ def open_page(browser: Browser, robot: Robot) -> Iterator[OpenPage]:
         PAGES.append(page)
         if before is not None:
             before(page)
-        page.goto(address)
+        page.goto(f"{address}/#{fragment}" if fragment else address)
         page.wait_for_selector("#link[data-state=good]")
         return page
 

@@ -18,6 +18,7 @@ from planner.memory import MemoryStore, Recollection
 from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.navigation import ObstacleReport
+from planner.people import People
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
 from planner.setup_switch import ProcessSwitch
@@ -72,6 +73,7 @@ class FakeGoals:
         self.acts: list[OpRequest | None] = []
         self.obstacles: FakeLayers | None = None
         self.stops: list[str] = []
+        self.sources: list[str] = []
         self.leg: Leg | None = None
         self.asks = False
 
@@ -90,7 +92,9 @@ class FakeGoals:
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
+        source: str = "api",
     ) -> Goal:
+        self.sources.append(source)
         self.calls.append(("submit", text, language, confirm, replace, idempotency_key))
         self.acts.append(act)
         return goal(text=text, state=GoalState.PLANNING)
@@ -313,6 +317,7 @@ class FakeServices:
         self.site = two_room()
         self.memory = KnownPlaces(self.site)
         self.recollection = Recollection(MemoryStore(StateDatabase(Path("/nowhere"))))
+        self.people = People(StateDatabase(Path("/nowhere")))
         self.fences = FenceProposals.in_home(Path("/nowhere"))
         clock = MovedClocks()
         self.orders = standing_orders(Path("/nowhere"), clock, FakeMissions(clock, "two_room"))

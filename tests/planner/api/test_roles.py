@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from planner.api.access import Access, AccessError
+from planner.people import Person, Role
 from tests.conftest import ROOT
 
 if TYPE_CHECKING:
@@ -18,8 +19,22 @@ LOOKING = frozenset({"GET", "HEAD", "OPTIONS"})
 OPERATORS = frozenset({"/v1/goals/x/replies"})
 """What a viewer may not even look at."""
 STOPPING = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
-TOKENS = {"operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": ""}
-ACCESS = Access("127.0.0.1", operator_token=TOKENS["operator"], viewer_token=TOKENS["viewer"])
+OWNERS = ("/v1/people", "/v1/people/x")
+"""What only the token that the planner was started with may change."""
+TOKENS = {
+    "operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": "",
+    "Ana": "a" * 20, "guest": "g" * 20,
+}  # fmt: skip
+PEOPLE = {
+    TOKENS["Ana"]: Person("ana", "Ana", Role.OPERATOR, "2026-01-01T00:00:00+00:00"),
+    TOKENS["guest"]: Person("guest", "Guest", Role.VIEWER, "2026-01-01T00:00:00+00:00"),
+}
+ACCESS = Access(
+    "127.0.0.1",
+    operator_token=TOKENS["operator"],
+    viewer_token=TOKENS["viewer"],
+    find_person=PEOPLE.get,
+)
 
 
 def all_requests() -> Iterator[tuple[str, str]]:
@@ -34,8 +49,10 @@ def expected_status(asker: str, method: str, path: str) -> int | None:
     """Return the status by which an asker is refused; None where it may ask."""
     if asker in ("nobody", "wrong token"):
         return 401
+    if path in OWNERS and asker != "operator" and method not in LOOKING:
+        return 403
     looks = method in LOOKING and path not in OPERATORS
-    if asker == "viewer" and not looks and path not in STOPPING:
+    if asker in ("viewer", "guest") and not looks and path not in STOPPING:
         return 403
     return None
 

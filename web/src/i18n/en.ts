@@ -545,6 +545,23 @@ export const en = {
   "event.hello_refused": "A planner asked for the robot and was refused.",
   "event.grant_refused": "A drive was refused.",
 
+  "people.title": "People",
+  "people.about":
+    "Each person, or each telephone, gets a link of its own, so that it can be told who stopped the robot, and taken back.",
+  "people.name": "Name",
+  "people.role": "Role",
+  "people.operator": "may use the robot",
+  "people.viewer": "may look and stop",
+  "people.add": "Add",
+  "people.remove": "Remove",
+  "people.remove_yes": "Yes, remove",
+  "people.removed": "{name} is removed: the link opens nothing any more.",
+  "people.scan": "Scan this with {name}, now: it is shown once.",
+  "people.qr": "QR code with the link of {name}",
+  "people.loopback":
+    "This page is open under an address of the robot's own computer. Open it under its name in the network before a telephone scans.",
+  "people.done": "Done",
+
   "error.planner_silent": "Pons does not answer.",
   "error.no_setup": "This robot is not in set-up any more.",
   "error.setup_silent": "Set-up does not answer: look at its log (logs/setup.log).",

@@ -535,6 +535,22 @@ export const zh: Record<Key, string> = {
   "event.hello_refused": "规划器申请控制权被拒绝。",
   "event.grant_refused": "行驶申请被拒绝。",
 
+  "people.title": "人员",
+  "people.about": "每个人或每部手机都有自己的链接，这样可以知道是谁停下了机器人，也可以收回。",
+  "people.name": "名字",
+  "people.role": "权限",
+  "people.operator": "可以使用机器人",
+  "people.viewer": "可以查看和停止",
+  "people.add": "添加",
+  "people.remove": "移除",
+  "people.remove_yes": "是，移除",
+  "people.removed": "{name} 已移除：链接不再有效。",
+  "people.scan": "现在用 {name} 扫描：只显示一次。",
+  "people.qr": "{name} 的链接二维码",
+  "people.loopback":
+    "本页是以机器人自己电脑的地址打开的。请先用它在网络中的名字打开，再让手机扫描。",
+  "people.done": "完成",
+
   "error.planner_silent": "Pons 没有应答。",
   "error.no_setup": "机器人已不在设置模式。",
   "error.setup_silent": "设置程序没有应答：请查看其日志（logs/setup.log）。",

@@ -12,7 +12,10 @@ import type {
   Known,
   Language,
   Memories,
+  NewPerson,
   Objects,
+  Person,
+  PersonRole,
   Pose,
   StandingOrders,
   Taught,
@@ -283,4 +286,18 @@ export async function forgetMemory(id: number): Promise<number> {
 
 export async function forgetMemories(): Promise<number> {
   return ((await call("DELETE", "v1/memory")) as { forgotten: number }).forgotten;
+}
+
+/** Return who may use the robot; null to anybody but its owner. */
+export async function listPeople(): Promise<readonly Person[] | null> {
+  return ((await call("GET", "v1/people")) as { people: readonly Person[] | null }).people;
+}
+
+/** Add a person; the token in the answer is told this once. */
+export async function addPerson(name: string, role: PersonRole): Promise<NewPerson> {
+  return (await call("POST", "v1/people", { name, role })) as NewPerson;
+}
+
+export async function removePerson(id: string): Promise<void> {
+  await call("DELETE", `v1/people/${encodeURIComponent(id)}`);
 }

@@ -22,6 +22,7 @@ import { fixed, seconds } from "./format";
 import { Here } from "./Here";
 import { Match } from "./Match";
 import { mindWords } from "./MindLine";
+import { PeoplePanel } from "./PeoplePanel";
 import { limitWords, nameOf } from "./steps";
 
 type Pair = readonly [label: string, value: string];
@@ -81,6 +82,7 @@ export function RobotTab() {
         </div>
       )}
       <WhoPlans />
+      <PeoplePanel />
       <Links />
       <Plots />
     </>

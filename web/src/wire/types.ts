@@ -532,3 +532,14 @@ export type StandingOrders = {
   readonly most: number;
   readonly orders: readonly StandingOrder[];
 };
+
+export type PersonRole = "operator" | "viewer";
+
+export type Person = {
+  readonly id: string;
+  readonly name: string;
+  readonly role: PersonRole;
+  readonly since: string;
+};
+
+export type NewPerson = Person & { readonly token: string };

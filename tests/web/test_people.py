@@ -1,0 +1,34 @@
+"""The owner lets a telephone in by a link, and what it does is the telephone's."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.e2e.polling import until
+from tests.e2e.robot import Robot
+from tests.web.conftest import OpenPage
+
+pytestmark = pytest.mark.e2e
+
+
+def test_a_link_makes_a_page_a_persons_until_it_is_taken_back(
+    robot: Robot, open_page: OpenPage
+) -> None:
+    page = open_page()
+    page.locator("#tab-robot").click()
+    page.locator("#person-name").fill("Ana's phone")
+    page.locator("#people").get_by_role("button", name="Add").click()
+    page.locator("#people .qr").wait_for()
+    token = page.locator("#pairing-link").inner_text().partition("#")[2]
+    theirs = open_page(fragment=token)
+    theirs.locator("#tab-robot").click()
+    theirs.locator("#links").wait_for()
+    assert theirs.locator("#people").count() == 0, "who may use the robot is the owner's to see"
+    theirs.keyboard.press("Space")
+    held = until(lambda: robot.judge.status.held, 5.0, "the stop that holds the robot")
+    assert "anas-phone" in str(held)
+    people = page.locator("#people")
+    people.get_by_role("button", name="Remove: Ana's phone").click()
+    people.get_by_role("button", name="Yes, remove").click()
+    people.locator("[data-person]").wait_for(state="detached")
+    assert robot.system.http("GET", "/v1/people").body["people"] == []
