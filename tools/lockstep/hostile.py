@@ -254,7 +254,7 @@ class HostilePlanner:
         return tuple(made)
 
 
-class Person:
+class TrustingOperator:
     """Arm, reset and resume again and again, as a person who trusts the bridge."""
 
     def __init__(self, world: LockstepWorld) -> None:

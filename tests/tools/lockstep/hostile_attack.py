@@ -11,7 +11,7 @@ from typing import Any
 
 from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import made_home
-from tools.lockstep.hostile import HostilePlanner, Person
+from tools.lockstep.hostile import HostilePlanner, TrustingOperator
 from tools.lockstep.judge import Judge
 
 SITES = 5
@@ -27,7 +27,7 @@ def attack(seed: int, run_s: float) -> dict[str, Any]:
     """Run one script; return what broke, how far it drove and how long it was in each mode."""
     with TemporaryDirectory(prefix="pb-") as folder:
         world = LockstepWorld(site=site_of(seed, Path(folder)), seed=seed + 1)
-        hostile, person, judge = HostilePlanner(world, seed), Person(world), Judge(world)
+        hostile, person, judge = HostilePlanner(world, seed), TrustingOperator(world), Judge(world)
         for _ in range(round(run_s * 100)):
             world.tick()
             hostile.turn()

@@ -17,7 +17,7 @@ import pytest
 from tools.lockstep import TICK_S, LockstepWorld
 from tools.lockstep.constant_drive import ConstantDrive
 from tools.lockstep.homes import hall
-from tools.lockstep.hostile import Person
+from tools.lockstep.hostile import TrustingOperator
 from tools.lockstep.judge import Judge
 from wire import Record, Velocity, encode, keys
 from wire.keys import Party
@@ -184,7 +184,7 @@ class Stage:
 
     def __init__(self, folder: Path, kind: Kind) -> None:
         self.world = LockstepWorld(site=hall(folder), seed=1)
-        self.brain, self.person = BrokenBrain(self.world, kind), Person(self.world)
+        self.brain, self.person = BrokenBrain(self.world, kind), TrustingOperator(self.world)
         self.judge = Judge(self.world)
         self.moved_m = 0.0
         """In the last run."""

@@ -13,7 +13,7 @@ import pytest
 from tests.tools.lockstep.hostile_attack import attack
 from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import hall
-from tools.lockstep.hostile import HostilePlanner, Person
+from tools.lockstep.hostile import HostilePlanner, TrustingOperator
 from tools.lockstep.judge import Judge
 
 PENS = (
@@ -38,7 +38,11 @@ def test_a_hostile_external_brain_breaks_no_law_where_localization_falls_silent(
     fence = json.loads((site / "fence.json").read_text("utf-8"))
     (site / "fence.json").write_text(json.dumps({**fence, "allowed": PENS}), "utf-8")
     world = LockstepWorld(site=site, seed=seed + 1)
-    hostile, person, judge = HostilePlanner(world, seed, "external"), Person(world), Judge(world)
+    hostile, person, judge = (
+        HostilePlanner(world, seed, "external"),
+        TrustingOperator(world),
+        Judge(world),
+    )
     hostile.metres = 60.0
     lost = 0
     for _ in range(2000):

@@ -16,7 +16,7 @@ from bridge.core.geometry.kinematics import along_arc
 from tools.lockstep import LockstepWorld, TooLong
 from tools.lockstep.constant_drive import ConstantDrive
 from tools.lockstep.homes import HALL_M, hall
-from tools.lockstep.hostile import Person
+from tools.lockstep.hostile import TrustingOperator
 from wire import Mode, Pose2
 
 ROBOT_M, PERSON_M, CRATE_M = 0.30, 0.25, 0.25
@@ -80,7 +80,7 @@ class Trials:
     def __init__(self, folder: Path, seed: int) -> None:
         self.random = Random(f"walls {seed}")
         self.world = LockstepWorld(site=hall(folder), seed=seed + 1)
-        self.driver, self.person = ConstantDrive(self.world), Person(self.world)
+        self.driver, self.person = ConstantDrive(self.world), TrustingOperator(self.world)
 
     def _run(self, ticks: int) -> None:
         for _ in range(ticks):
