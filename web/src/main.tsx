@@ -32,6 +32,7 @@ import {
   taught,
   wantsSnapshot,
 } from "./state/store";
+import { startTheme } from "./state/theme";
 import { startVisible } from "./state/visible";
 import { listen } from "./stop/keys";
 import { startStopper, stop } from "./stop/stopper";
@@ -58,6 +59,7 @@ startStopper((message) => socket.send(message), hush);
 listen(stop);
 startToken();
 startLanguage();
+startTheme();
 startVisible();
 startAloud();
 startCamera();

@@ -545,6 +545,10 @@ export const en = {
   "event.hello_refused": "A planner asked for the robot and was refused.",
   "event.grant_refused": "A drive was refused.",
 
+  "theme.title": "How this page looks",
+  "theme.system": "as the system",
+  "theme.light": "light",
+  "theme.dark": "dark",
   "people.title": "People",
   "people.about":
     "Each person, or each telephone, gets a link of its own, so that it can be told who stopped the robot, and taken back.",

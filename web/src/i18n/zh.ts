@@ -535,6 +535,10 @@ export const zh: Record<Key, string> = {
   "event.hello_refused": "规划器申请控制权被拒绝。",
   "event.grant_refused": "行驶申请被拒绝。",
 
+  "theme.title": "页面外观",
+  "theme.system": "跟随系统",
+  "theme.light": "浅色",
+  "theme.dark": "深色",
   "people.title": "人员",
   "people.about": "每个人或每部手机都有自己的链接，这样可以知道是谁停下了机器人，也可以收回。",
   "people.name": "名字",

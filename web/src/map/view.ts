@@ -2,6 +2,7 @@
 import * as L from "leaflet";
 import type { Candidate, Grid, Place, Pose, ProposedRoom, Thing } from "../wire/types";
 import { percent } from "../panels/format";
+import { isDark } from "../state/theme";
 import { Cells, nameSpot } from "./cells";
 import { Drawing } from "./drawing";
 import { spreadLabels } from "./labels";
@@ -56,7 +57,7 @@ export class MapView {
     );
     this.map.on("zoomend", () => this.markSmall());
     new ResizeObserver(() => this.fit()).observe(place);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
+    isDark.subscribe(() => this.paint());
   }
 
   showGrid(grid: Grid): void {

@@ -24,6 +24,7 @@ import { Match } from "./Match";
 import { mindWords } from "./MindLine";
 import { PeoplePanel } from "./PeoplePanel";
 import { limitWords, nameOf } from "./steps";
+import { ThemePanel } from "./ThemePanel";
 
 type Pair = readonly [label: string, value: string];
 
@@ -83,6 +84,7 @@ export function RobotTab() {
       )}
       <WhoPlans />
       <PeoplePanel />
+      <ThemePanel />
       <Links />
       <Plots />
     </>

@@ -5,6 +5,7 @@ import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { type Sample, series, WINDOW_S } from "../state/history";
 import { history, now } from "../state/store";
+import { isDark } from "../state/theme";
 import { visible } from "../state/visible";
 import { span } from "./span";
 
@@ -31,20 +32,15 @@ export function Plot({
   least: number;
 }) {
   const place = useRef<HTMLDivElement>(null);
+  const dark = isDark.value; // its colours are read when it is made
   useEffect(() => {
     const element = place.current;
     if (element === null) return;
-    let plot = make(element, lines, least);
+    const plot = make(element, lines, least);
     const width = new ResizeObserver(() =>
       plot.setSize({ width: element.clientWidth, height: HEIGHT_PX }),
     );
     width.observe(element);
-    const theme = matchMedia("(prefers-color-scheme: dark)");
-    const again = (): void => {
-      plot.destroy();
-      plot = make(element, lines, least);
-    };
-    theme.addEventListener("change", again);
     const end = effect(() => {
       if (beat.value === false) return;
       const data = series(
@@ -56,11 +52,10 @@ export function Plot({
     });
     return () => {
       end();
-      theme.removeEventListener("change", again);
       width.disconnect();
       plot.destroy();
     };
-  }, [lines, least]);
+  }, [lines, least, dark]);
   return (
     <figure class="plot">
       <figcaption>
