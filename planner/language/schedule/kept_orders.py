@@ -169,6 +169,9 @@ def _read_until(words: str, chinese: bool) -> ChangeOrders | None:
     return None if end is None else replace(named, until=end, until_words=found["words"])
 
 
+_NO_LONGER = ("any more", "longer")
+
+
 def _read_never_again(folded: str, chinese: bool) -> ChangeOrders | None:
     """Read "don't greet people any more", 晚上别再检查门了: never "tonight", which is one day's."""
     found = _NEVER_AGAIN[chinese].fullmatch(folded)
@@ -177,7 +180,7 @@ def _read_never_again(folded: str, chinese: bool) -> ChangeOrders | None:
     what = found["what"]
     if not (chinese and found["t"]):
         again = reads_timing(what, in_chinese=chinese) and (not chinese or folded.endswith("了"))
-        known = _IN_GENERAL.fullmatch(what) or folded.endswith(("any more", "longer"))
+        known = _IN_GENERAL.fullmatch(what) or (not chinese and folded.endswith(_NO_LONGER))
         return ChangeOrders("remove", what, is_sure=again) if again or known else None
     parts = time_of(found["t"], True)
     ever = re.search(r"再|以后|今后|了$", folded) is not None

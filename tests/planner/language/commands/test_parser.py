@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from planner.language.commands import (
@@ -309,6 +309,7 @@ def test_other_sentences_are_left_to_the_brain(text: str) -> None:
 
 
 @settings(max_examples=50)
+@example(("don't go there any more", CancelCommand()), "别")
 @given(st.sampled_from([*ENGLISH, *CHINESE]), st.sampled_from(["not", "kitchen", "别", "厨房去"]))
 def test_a_word_more_before_a_sentence_makes_it_another(
     said: tuple[str, Intent], more: str

@@ -372,7 +372,7 @@ def test_who_has_read_every_word_needs_no_quotes() -> None:
     ("said", "place"),
     [
         ("Come to think of it, the kitchen was always too small for us", "kitchen"),
-        ("到头来还是厨房最暖和", "kitchen"),
+        ("回头想想，厨房还是太小了", "kitchen"),
         ("看把你能的，书房都认得", "study"),
     ],
 )
