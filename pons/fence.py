@@ -18,7 +18,7 @@ from planner.site.fence import load_fence
 from planner.site.places import load_places
 from pons.bridge_client import NoBridge, fence_direct
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
-from pons.terminal import below
+from pons.terminal import refusal
 from wire import ConfigError, FenceFile, fingerprint
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def run(settings: LaunchSettings, act: str, what: str | None, *, as_json: bool =
         return EXIT_USAGE
     except (PlannerProblem, SiteError) as refused:
         told = refused.told if isinstance(refused, PlannerProblem) else refused.message
-        print(f"refused: {refused}{below(str(refused), told)}", file=sys.stderr)
+        print(f"refused: {refusal(refused, told)}", file=sys.stderr)
         return EXIT_REFUSED
     except (PlannerDown, NoBridge, ConfigError) as trouble:
         print(

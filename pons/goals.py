@@ -13,7 +13,7 @@ from planner.language.stop import StopReading, is_stop, read_stop
 from pons import stop
 from pons.goal_progress import ShownProgress
 from pons.http import DEFAULT_TIMEOUT_S, PlannerDown, PlannerProblem, call, tell_unreached
-from pons.terminal import below, pick
+from pons.terminal import pick, refusal
 from pons.terminal_text import (
     FINAL_STATES,
     WAITING_STATES,
@@ -337,7 +337,7 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
 def _trouble(trouble: Exception) -> int:
     """Say what went wrong, once; return 3 where the planner refused, 6 where nobody answers."""
     if isinstance(trouble, PlannerProblem):
-        print(f"refused: {trouble}{below(str(trouble), trouble.told)}", file=sys.stderr)
+        print(f"refused: {refusal(trouble, trouble.told)}", file=sys.stderr)
         return EXIT["refused"]
     print(tell_unreached(trouble), file=sys.stderr)
     return EXIT_UNREACHED

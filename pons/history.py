@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote, urlencode
 
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
-from pons.terminal import below, paint, pick, pick_of
+from pons.terminal import paint, pick, pick_of, refusal
 from pons.terminal_text import step_line
 
 if TYPE_CHECKING:
@@ -157,7 +157,7 @@ def _event(goal: dict[str, Any], *, as_json: bool) -> str:
 
 def _tell(trouble: PlannerDown | PlannerProblem) -> int:
     if isinstance(trouble, PlannerProblem):
-        print(f"refused: {trouble}{below(str(trouble), trouble.told)}", file=sys.stderr)
+        print(f"refused: {refusal(trouble, trouble.told)}", file=sys.stderr)
         return EXIT_REFUSED
     print(tell_unreached(trouble), file=sys.stderr)
     return EXIT_DOWN

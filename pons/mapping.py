@@ -34,7 +34,7 @@ from pons.command_parser import CommandParser
 from pons.site import is_site_name, site_name_malformed
 from pons.site_refusals import keyframes_malformed, recording_refused, site_refusal
 from pons.site_rooms import proposal_line
-from pons.terminal import below, pick
+from pons.terminal import pick, refusal
 from wire import ConfigError, load_robot
 from wire.fingerprint import map_id
 from wire.site_map import read_map_id
@@ -122,7 +122,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         return EXIT_REFUSED
     except ConfigError as refused:
         told = refused.message if isinstance(refused, SiteError) else {}
-        print(f"refused: {refused}{below(str(refused), told)}", file=sys.stderr)
+        print(f"refused: {refusal(refused, told)}", file=sys.stderr)
         return EXIT_REFUSED
     print(f"{folder}: of {source}, {len(builder.keyframes)} keyframes and {builder.loops} loops")
     if names:

@@ -1,13 +1,17 @@
 """Read how the robot moved during a mission from the black box: way, speeds, rows and stops.
 
-Asks no process. Files of any stage are read; what was thinned out is missing, and said so.
+Asks no process. Files of any stage are read; what was thinned out is missing, and said so. The
+planner, which knows nothing of recordings, runs it as ``HOME SINCE_UNIX_S UNTIL_UNIX_S`` and reads
+the JSON that it prints.
 """
 
 from __future__ import annotations
 
 import json
+import sys
 from itertools import pairwise
 from math import hypot
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from bridge.recording.mcap_reader import BadRecording, McapReader
@@ -15,26 +19,23 @@ from bridge.recording.rotation import SUFFIX
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from pathlib import Path
 
     from bridge.recording.mcap_reader import Raw
 
 _STATUS, _EVENT = "/pons/status", "/pons/event"
 SAMPLE_S: Final = 0.2
 """Between two samples: a person scrubs through them."""
-MOST_SAMPLES: Final = 6_000
+MOST_SAMPLES: Final = 2_000
 GAP_S: Final = 2.0
 """A longer silence of the record is told as a gap."""
-_TOLD = frozenset({"mode", "row", "refused"})
 
 
 def read_track(folder: Path, since_unix_s: float, until_unix_s: float) -> dict[str, Any]:
     """Return samples, events and gaps between two times; what can't be read is left out.
 
-    A sample is ``[s, x_m, y_m, yaw_rad, asked_mps, measured_mps, mode, rows]``, its time since the
-    beginning; the pose is in ``map``, None where the robot did not know it.
+    Times are since the beginning; a pose is in ``map``, None where the robot did not know it.
     """
-    samples: list[list[Any]] = []
+    samples: list[dict[str, Any]] = []
     events: list[dict[str, Any]] = []
     gaps: list[list[float]] = []
     every_s = max(SAMPLE_S, (until_unix_s - since_unix_s) / MOST_SAMPLES)
@@ -76,13 +77,30 @@ def _of_file(box: McapReader, since_ns: float, until_ns: float) -> Iterator[Raw]
         )
 
 
-def _sample(at_s: float, status: dict[str, Any]) -> list[Any]:
+def _sample(at_s: float, status: dict[str, Any]) -> dict[str, Any]:
     pose = status.get("base_in_map") or {}
-    at = [round(pose[name], 3) if name in pose else None for name in ("x_m", "y_m", "yaw_rad")]
-    speeds = [round(status[name]["v_mps"], 3) for name in ("asked", "measured")]
-    return [round(at_s, 2), *at, *speeds, status["mode"], [row["row"] for row in status["rows"]]]
+    return {
+        "s": round(at_s, 2),
+        **{name: round(pose[name], 3) if pose else None for name in ("x_m", "y_m", "yaw_rad")},
+        "asked_mps": round(status["asked"]["v_mps"], 3),
+        "measured_mps": round(status["measured"]["v_mps"], 3),
+        "mode": status["mode"],
+        "rows": [row["row"] for row in status["rows"]],
+    }
 
 
-def _way(samples: list[list[Any]]) -> float:
-    known = [(one[1], one[2]) for one in samples if one[1] is not None]
+def _way(samples: list[dict[str, Any]]) -> float:
+    known = [(one["x_m"], one["y_m"]) for one in samples if one["x_m"] is not None]
     return sum(hypot(there[0] - here[0], there[1] - here[1]) for here, there in pairwise(known))
+
+
+def main(arguments: list[str]) -> int:
+    """Print the track of a home's recordings between two times as JSON; 0."""
+    home, since, until = arguments
+    track = read_track(Path(home) / "recordings", float(since), float(until))
+    print(json.dumps(track, ensure_ascii=False))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from pons.http import PlannerDown, PlannerProblem, call, fetch_text, tell_unreached
-from pons.terminal import below, pick, pick_of
+from pons.terminal import pick, pick_of, refusal
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -40,7 +40,7 @@ def run(settings: LaunchSettings, act: str, words: list[str], *, as_json: bool =
             return _import(settings, what)
         answer = _ask(settings, act, what)
     except PlannerProblem as refused:
-        print(f"refused: {refused}{below(str(refused), refused.told)}", file=sys.stderr)
+        print(f"refused: {refusal(refused, refused.told)}", file=sys.stderr)
         return EXIT_REFUSED
     except PlannerDown as trouble:
         print(tell_unreached(trouble), file=sys.stderr)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
-from pons.terminal import below, pick_of
+from pons.terminal import pick_of, refusal
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -47,7 +47,7 @@ def run(
         else:
             _list(settings)
     except PlannerProblem as refused:
-        print(f"refused: {refused}{below(str(refused), refused.told)}", file=sys.stderr)
+        print(f"refused: {refusal(refused, refused.told)}", file=sys.stderr)
         return EXIT_REFUSED
     except PlannerDown as trouble:
         print(tell_unreached(trouble), file=sys.stderr)

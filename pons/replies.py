@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
-from pons.terminal import below, pick
+from pons.terminal import pick, refusal
 from pons.terminal_text import goal_line
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def run(settings: LaunchSettings, goal_id: str | None) -> int:
         goal = call(settings, "GET", f"/v1/goals/{quote(chosen, safe='')}")
         found = call(settings, "GET", f"/v1/goals/{quote(chosen, safe='')}/replies")
     except PlannerProblem as refused:
-        print(f"{refused}{below(str(refused), refused.told)}", file=sys.stderr)
+        print(f"{refusal(refused, refused.told)}", file=sys.stderr)
         return EXIT_REFUSED
     except PlannerDown as trouble:
         print(tell_unreached(trouble), file=sys.stderr)

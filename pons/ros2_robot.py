@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from maps import load_map
-from pons.terminal import below
+from pons.terminal import refusal
 from ros2.mounting import NoMounting, find_mounting
 from ros2.occupancy import map_files
 from ros2.robot_link import fetch
@@ -57,7 +57,7 @@ def print_mounting(robot: RobotDescription) -> int:
     except TopicFailure as why:
         refused = TopicRefusal(why.trouble)
         told = {"en": CODES[refused.code][0], "zh": refused.cure_zh}
-        print(f"refused: {refused}{below(str(refused), told)}", file=sys.stderr)
+        print(f"refused: {refusal(refused, told)}", file=sys.stderr)
         return EXIT_REFUSED
     print(f"# {frame} in {found.base}, {found.z_m:.2f} m above it")
     print('[lidar]\nkind = "ros2"')

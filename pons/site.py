@@ -25,7 +25,7 @@ from pons.command_parser import CommandParser
 from pons.settings import site_of
 from pons.site_findings import print_findings
 from pons.site_rooms import print_rooms, proposal_line
-from pons.terminal import pick, speaks_chinese
+from pons.terminal import pick, refusal
 from wire import ConfigError, Pose2, load_robot, wrap
 from wire.fence import fence_text
 
@@ -135,19 +135,17 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
             return _print_fence_with_masks(settings, folder, said)
         return _name_room(folder, said.room, said.english, said.zh or said.english)
     except ConfigError as refused:
-        print(f"refused: {refused}{_chinese(refused)}", file=sys.stderr)
+        print(f"refused: {refusal(refused, _told(refused))}", file=sys.stderr)
         return EXIT_REFUSED
 
 
-def _chinese(refused: ConfigError) -> str:
-    """Return the line below a refusal where the person reads Chinese; empty where there is none."""
+def _told(refused: ConfigError) -> dict[str, str]:
+    """Return a refusal's sentence in Chinese, where it has one; English stands in the error."""
     from pons.ros2_robot import TopicRefusal
 
-    if not speaks_chinese():
-        return ""
     if isinstance(refused, SiteError):
-        return f"\n{refused.message['zh']}"
-    return f"\n{refused.cure_zh}" if isinstance(refused, TopicRefusal) else ""
+        return {"zh": refused.message["zh"]}
+    return {"zh": refused.cure_zh} if isinstance(refused, TopicRefusal) else {}
 
 
 def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:

@@ -34,6 +34,17 @@ def pick_of(told: Mapping[str, str]) -> str:
     return pick(str(told.get("en", "")), str(told.get("zh", "")))
 
 
+def refusal(error: Exception, told: Mapping[str, str]) -> str:
+    """Return a refusal in the one language: its code stays, whoever reads it.
+
+    English has the facts in the error itself, and the planner's sentence below where that adds one.
+    """
+    line = str(error)
+    if speaks_chinese() and told.get("zh"):
+        return f"{line.partition(': ')[0]}: {told['zh']}"
+    return line + below(line, told)
+
+
 def below(line: str, told: Mapping[str, str]) -> str:
     """Return a sentence to print below a line, set in; empty where the line says it already."""
     sentence = pick_of(told)

@@ -75,7 +75,8 @@ def run(settings: LaunchSettings, *, as_json: bool = False) -> int:
 
 def _content(stop: StopReport) -> dict[str, Any]:
     """Return the report as JSON holds it, with the sentences of both languages."""
-    fields = asdict(replace(stop, rows=()))
+    fields = asdict(replace(stop, rows=(), held=None))
+    fields["held"] = None if stop.held is None else stop.held.model_dump(mode="json")
     fields["path"] = str(stop.path)
     fields["rows"] = [
         {"row": stage.name, "action": stage.action.value, "evidence": evidence}

@@ -14,6 +14,7 @@ from planner.budget import Usage
 from planner.mission.api_view import recorded_goal
 from planner.mission.errors import UnknownGoal
 from planner.mission.goal_history import GoalStory, HistoryPage, HistoryQuery
+from planner.mission.recorded_track import RecordedTrack
 from planner.plan import Frozen, Goal, GoalState
 
 Limit = Annotated[int, Query(ge=1, le=200)]
@@ -61,5 +62,15 @@ def routes(services: Services) -> APIRouter:
             goal = recorded_goal(mission)
         await services.budget.look(goal_id)
         return ToldGoal(goal=goal, story=story, usage=services.budget.usage(goal_id))
+
+    @router.get("/{goal_id}/track", operation_id="get_history_track")
+    async def track(goal_id: str) -> RecordedTrack:
+        """Show how the robot moved: pose, speed asked and measured, rows, as the black box has it.
+
+        Empty where nothing of that time is kept any more.
+        """
+        mission, story = await services.history.story(goal_id)
+        began = story.changes[0].at_unix_s if story.changes else mission.created_unix_s
+        return await services.history.tracks.read(began, mission.updated_unix_s)
 
     return router

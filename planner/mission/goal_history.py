@@ -16,6 +16,7 @@ import sqlalchemy as sa
 
 from planner.mission.errors import UnknownGoal
 from planner.mission.journal_records import read_mission
+from planner.mission.recorded_track import TrackReader
 from planner.plan import ENDED, Frozen, GoalState, Language
 
 if TYPE_CHECKING:
@@ -131,6 +132,7 @@ class GoalHistory:
 
     def __init__(self, path: Path) -> None:
         self._path = path
+        self.tracks = TrackReader(path.parent)
         self._made: sa.Engine | None = None
 
     @classmethod

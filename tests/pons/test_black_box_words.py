@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import gzip
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -88,6 +89,19 @@ def test_a_row_is_told_with_evidence_and_what_to_do(
     assert "激光雷达没有新数据" in said
     assert "运行 pons arm，然后 pons resume" in said
     assert "断电" in said
+
+
+def test_a_stop_is_told_as_json_with_its_sentences_in_both_languages(
+    home: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    world = World(keep=True).driving((5.0, 0.0))
+    world.stop()
+    world.run(2.0)
+    recorded(home, world)
+    assert main(["why", "--json"]) == why.EXIT_TOLD
+    told = json.loads(capsys.readouterr().out)
+    assert (told["cause"], told["held"]["reason"], told["ended"]) == ("stop", "stop", "HOLD")
+    assert set(told["why"]) == set(told["to_do"]) == {"en", "zh"}
 
 
 def test_a_self_test_and_a_stop_that_fault_are_told_in_sentences(

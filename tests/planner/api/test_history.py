@@ -44,6 +44,12 @@ def test_one_goal_comes_with_its_story_and_its_cost(client: TestClient) -> None:
     assert (unknown.status_code, unknown.json()["code"]) == (404, "unknown_goal")
 
 
+def test_a_track_is_read_by_a_process_and_empty_where_nothing_is_kept(client: TestClient) -> None:
+    track = client.get("/v1/history/g1/track").json()
+    assert track == {"samples": [], "events": [], "gaps": [], "way_m": 0.0}
+    assert client.get("/v1/history/g9/track").status_code == 404
+
+
 @pytest.mark.parametrize(
     "wrong", ["limit=0", "limit=1000", "state=odd", "before=-1", "since_unix_s=x"]
 )
