@@ -6,7 +6,9 @@ build copies them into ``pons_assets``, the one module that knows where they are
 
 from __future__ import annotations
 
+import contextlib
 import shutil
+import subprocess
 from pathlib import Path
 
 from setuptools import setup
@@ -17,6 +19,7 @@ ASSETS = {
     "robot.toml": "robot.toml",
     "requirements.lock": "requirements.lock",
     "prompts": "prompts",
+    "robots": "robots",
     "sites": "sites",
     "ros2/pons_ros2": "pons_ros2",
     "web/dist": "page",
@@ -40,6 +43,11 @@ class BuildWithAssets(build_py):
                 shutil.copytree(ROOT / source, package / name, ignore=without, dirs_exist_ok=True)
             else:
                 shutil.copyfile(ROOT / source, package / name)
+        asked = ["git", "-C", str(ROOT), "rev-parse", "--short=12", "HEAD"]
+        with contextlib.suppress(OSError):
+            told = subprocess.run(asked, capture_output=True, text=True, check=False)
+            if told.returncode == 0:
+                (package / "commit").write_text(told.stdout)
 
 
 setup(cmdclass={"build_py": BuildWithAssets})

@@ -8,7 +8,6 @@ reading door and the core; prints nothing.
 
 from __future__ import annotations
 
-import json
 from contextlib import ExitStack
 from dataclasses import dataclass
 from math import hypot
@@ -16,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core import step
 from bridge.core.faults.fault_table import STAGES
+from bridge.recording.incidents import EVENT, is_incident
 from bridge.recording.recording_reader import (
     BadRecording,
     Header,
@@ -37,10 +37,7 @@ if TYPE_CHECKING:
 
 __all__ = ["BadRecording", "StopReport", "last_stop"]
 
-_READY = {"ACTIVE", "TELEOP", "HOLD"}
-_STOPPED = {"STOPPING", "ESTOPPED", "FAULT", "DISARMED"}
-_UNPROVEN = ["SELFTEST", "FAULT"]
-_EVENT, _BOOT = "/pons/event", "/pons/boot"
+_BOOT = "/pons/boot"
 AFTER_TICKS = 1000
 """How far the aftermath is followed: ten seconds."""
 
@@ -115,22 +112,12 @@ def _search(box: McapReader) -> tuple[int, Raw] | None:
     """Return the chunk and the event of the last stop. Chunks without events are not unpacked."""
     for index in range(len(box.chunks) - 1, -1, -1):
         chunk = box.chunks[index]
-        if chunk.topics and _EVENT not in chunk.topics:
+        if chunk.topics and EVENT not in chunk.topics:
             continue  # one without any index may be the last of a file cut short
         for raw in reversed(box.read(chunk)):
-            if raw.topic == _EVENT and _is_stop(raw.data):
+            if raw.topic == EVENT and is_incident(raw.data):
                 return index, raw
     return None
-
-
-def _is_stop(data: bytes) -> bool:
-    event = json.loads(data)
-    if event["code"] != "mode":
-        return False
-    words = str(event["detail"]).split(" ", 2)
-    if words[:2] == _UNPROVEN:
-        return True  # it never was ready, and a person wants to know why
-    return words[0] in _READY and words[1:2] != [] and words[1] in _STOPPED
 
 
 def _run_again(boxes: list[McapReader], index: int, stop: Raw) -> StopReport:

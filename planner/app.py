@@ -19,6 +19,7 @@ from planner.budget import purse_of
 from planner.language.semantic_parser.parser import load_network
 from planner.memory import MemoryLimits, MemoryStore, Recollection, SightingRecorder
 from planner.mission import JournalSync, MissionJournal, Missions, Rules
+from planner.mission.goal_history import GoalHistory
 from planner.mission.memory_lookup import step_kind
 from planner.mission.skills.spatial_relations import support_of
 from planner.navigation import RouteLimits, RouteWorker
@@ -89,7 +90,10 @@ class Planner:
         self.fences = FenceProposals.in_home(where.home, self._state)
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
         self.budget.prepare()
-        self._journal = MissionJournal.in_home(where.home)
+        self._journal, self.history = (
+            MissionJournal.in_home(where.home),
+            GoalHistory.in_home(where.home),
+        )
         route_limits = RouteLimits.of(self.description)
         self._router = RouteWorker(self.site.folder, self.site.map_id, route_limits)
         radius_m = self.description.base.radius_m
@@ -191,6 +195,7 @@ class Planner:
         await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()
+        self.history.close()
         for begun in (self._opening, self._warming):
             if begun is not None:
                 begun.cancel()

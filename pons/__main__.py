@@ -10,13 +10,21 @@ from dataclasses import replace
 from importlib import import_module
 
 from pons.grammar import EVAL, MAP, MOCK_LLM, NAV2, OPERATOR, ROBOT, SITE, parser
-from pons.settings import BadSetting, LaunchSettings, is_robot_named, load, port_of, site_of
+from pons.settings import (
+    BadSetting,
+    LaunchSettings,
+    is_robot_named,
+    load,
+    port_of,
+    robot_of,
+    site_of,
+)
 from pons_assets import IS_INSTALLED, needs_checkout
 
 EXIT_USAGE = 2
 _FOLLOW = frozenset({
     "say", "answer", "confirm", "cancel", "pause", "resume", "places", "orders", "replies", "why",
-    "arm", "reset", "people",
+    "arm", "reset", "people", "goals", "log", "open", "down", "logs",
 })  # fmt: skip
 """Words to a robot that runs: in a folder without one, this user's only one is meant."""
 EXIT_UNREAD = 141
@@ -65,10 +73,16 @@ def _reader_is_gone() -> bool:
 
 def _run_command(words: list[str]) -> int:
     """Run one command; what it refuses is raised."""
-    if words in (["stop"], ["estop"], ["disarm"]):  # before argparse: nothing may slow this down
-        from pons import stop
+    if words[:1] in (["stop"], ["estop"], ["disarm"]) and words[1:] in ([], ["--json"]):
+        from pons import stop  # before argparse: nothing may slow this down
 
-        stop.leave(stop.run(load(forgiving=True), words[0]))  # type: ignore[arg-type]  # one of them
+        as_json = len(words) > 1
+        stop.leave(stop.run(load(forgiving=True), words[0], as_json=as_json))  # type: ignore[arg-type]  # one of them
+    if words in (["--version"], ["version"]):
+        from pons.version import version_line
+
+        print(version_line())
+        return 0
     settings = load(starts=words[:1] == ["up"])
     if words and words[0] in _FOLLOW and not is_robot_named():
         from pons.running import of_this_user
@@ -99,7 +113,7 @@ def _run_command(words: list[str]) -> int:
 
         given = ["--robot", str(settings.robot), "--home", str(settings.home)]
         return nav2([*given, *words[1:]])
-    return _dispatch(settings, parser().parse_args(words))
+    return _dispatch(settings, parser().parse_args(words), words)
 
 
 def _describe_refusal(wrong: Exception) -> str | None:
@@ -112,20 +126,19 @@ def _describe_refusal(wrong: Exception) -> str | None:
     return f"{wrong}{chinese_line(str(wrong))}"
 
 
-def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
+def _dispatch(settings: LaunchSettings, said: argparse.Namespace, words: list[str]) -> int:
     if said.word == "up":
-        from pons import up
+        return _bring_up(settings, said, words)
+    if said.word in ("down", "logs", "open"):
+        return _background(settings, said)
+    if said.word in ("help", "completion"):
+        return _help(said)
+    if (given := getattr(said, "robot", None)) is not None:
+        settings = replace(settings, robot=robot_of(str(given), settings.home))
+    elif not os.environ.get("PONS_ROBOT"):
+        from pons.running import of_running
 
-        port = port_of(said.port) if said.port is not None else None
-        site = None if said.site is None else site_of(str(said.site), settings.home)
-        given = {"site": site, "robot": said.robot, "port": port, "metal": said.metal}
-        given |= {"domain": said.domain, "seed": said.seed}
-        given |= {"twin": said.twin or said.twin_firmware is not None}
-        given |= {"twin_firmware": said.twin_firmware}
-        given |= {"mapping": said.mapping, "set_up": said.set_up}
-        chosen = {name: value for name, value in given.items() if value is not None}
-        chosen["tls"] = said.tls or settings.tls
-        return up.run(replace(settings, **chosen), planner=not said.no_planner)
+        settings = of_running(settings)
     if said.word in _TOOLS:
         return _tool(settings, said)
     if said.word in OPERATOR or said.word == "status":
@@ -134,18 +147,20 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
         if said.word == "status":
             return operator.status(settings, as_json=said.json)
         return operator.ask(settings, said.word)
+    return _goal(settings, said)
+
+
+def _goal(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    """Give a goal, answer one, or act on one."""
     from pons import goals
 
-    if said.word == "say" and said.wav is not None:
-        if said.text:
-            raise BadSetting("two_orders: give a sentence or --wav FILE, not both")
-        wait = not said.no_wait
-        return goals.say_wav(settings, said.wav, wait=wait, replace=said.replace)
     if said.word == "say":
-        if not said.text:
-            raise BadSetting("no_order: give a sentence, or a recording with --wav FILE")
-        text = " ".join(said.text)
-        return goals.say(settings, text, wait=not said.no_wait, replace=said.replace)
+        if bool(said.text) == (said.wav is not None):
+            code = "two_orders" if said.text else "no_order"
+            raise BadSetting(f"{code}: give a sentence, or a recording with --wav FILE")
+        told = said.wav or " ".join(said.text)
+        wait = not said.no_wait
+        return goals.say(settings, told, wait=wait, replace=said.replace, as_json=said.json)
     if said.word == "answer":
         return goals.answer(settings, said.words, wait=not said.no_wait)
     if said.word == "confirm":
@@ -153,11 +168,53 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace) -> int:
     return goals.act(settings, said.word, said.goal)
 
 
-_BARE_TOOLS = frozenset({"tls", "why", "key"})
+def _bring_up(settings: LaunchSettings, said: argparse.Namespace, words: list[str]) -> int:
+    if said.detach:
+        from pons import background
+
+        detached = [word for word in words if word not in ("-d", "--detach")]
+        return background.start(settings, detached)
+    from pons import up
+
+    port = port_of(said.port) if said.port is not None else None
+    site = None if said.site is None else site_of(str(said.site), settings.home)
+    robot = None if said.robot is None else robot_of(str(said.robot), settings.home)
+    given = {"site": site, "robot": robot, "port": port, "metal": said.metal}
+    given |= {"domain": said.domain, "seed": said.seed}
+    given |= {"twin": said.twin or said.twin_firmware is not None}
+    given |= {"twin_firmware": said.twin_firmware}
+    given |= {"mapping": said.mapping, "set_up": said.set_up}
+    chosen = {name: value for name, value in given.items() if value is not None}
+    chosen["tls"] = said.tls or settings.tls
+    return up.run(replace(settings, **chosen), planner=not said.no_planner)
+
+
+def _background(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    from pons import background
+
+    if said.word == "logs":
+        return background.show_logs(settings, said.name, said.lines, follow=said.follow)
+    return background.end(settings) if said.word == "down" else background.open_page(settings)
+
+
+def _help(said: argparse.Namespace) -> int:
+    if said.word == "completion":
+        from pons import completion
+
+        return completion.run(said.shell)
+    if said.about == "exit-codes":
+        from pons.command_help import exit_table
+
+        print(exit_table())
+        return 0
+    return main([*([said.about] if said.about else []), "--help"])
+
+
+_BARE_TOOLS = frozenset({"tls", "key"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
-_PLANNERS = frozenset({"places", "orders", "replies", "people"})
+_PLANNERS = frozenset({"places", "people", "orders", "replies", "goals", "log"})
 _TOOLS = _BARE_TOOLS | _PLANNERS | {
-    "doctor", "braking", "fence", "calibrate", "fault", "replay", "detect",
+    "doctor", "why", "braking", "fence", "calibrate", "fault", "replay", "detect",
 }  # fmt: skip
 
 
@@ -174,6 +231,10 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if said.word in _BARE_TOOLS:
         code: int = import_module(f"pons.{said.word}").run(settings)
         return code
+    if said.word == "why":
+        from pons import why
+
+        return why.run(settings, as_json=said.json)
     if said.word == "braking":
         from pons import braking
 
@@ -190,7 +251,7 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if said.word == "fence":
         from pons import fence
 
-        return fence.run(settings, said.act, said.what)
+        return fence.run(settings, said.act, said.what, as_json=said.json)
     if said.word in _PLANNERS:
         return _ask_planner(settings, said)
     if said.word == "fault":
@@ -213,7 +274,7 @@ def _ask_planner(settings: LaunchSettings, said: argparse.Namespace) -> int:
     if said.word == "places":
         from pons import places
 
-        return places.run(settings, said.act, said.name, chinese=said.zh)
+        return places.run(settings, said.act, said.name, chinese=said.zh, as_json=said.json)
     if said.word == "orders":
         from pons import orders
 
@@ -222,6 +283,10 @@ def _ask_planner(settings: LaunchSettings, said: argparse.Namespace) -> int:
         from pons import people
 
         return people.run(settings, said.act, said.name, role=said.role, as_json=said.json)
+    if said.word in ("goals", "log"):
+        from pons import history
+
+        return history.run(settings, said) if said.word == "goals" else history.log(settings, said)
     from pons import replies
 
     return replies.run(settings, said.goal)

@@ -63,7 +63,7 @@ class IssuedCertificate:
         made = f"{', '.join(self.made)} made now; " if self.made else ""
         return (
             f"certificate for {', '.join(self.names)} ({made}it ends {self.ends:%Y-%m-%d})",
-            f"devices trust {self.authority}, also the page's /ca.crt, if its SHA-256 is / 指纹为:",
+            f"devices trust {self.authority}, also the page's /ca.crt, if its SHA-256 is:",
             f"  {self.fingerprint}",
         )
 

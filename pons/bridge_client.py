@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from bridge.operator_key import load_operator_key
 from pons.settings import asker
+from pons.terminal import pick
 from wire import (
     Answer,
     FenceRequest,
@@ -104,13 +105,21 @@ def ask_direct(settings: LaunchSettings, kind: OpKind) -> Answer:
         return _until_answered(settings, lambda: mouth.put(request), ears, request_id, kind)
 
 
+def arm_direct(settings: LaunchSettings) -> bool:
+    """Arm at the bridge itself; tell whether it is armed."""
+    try:
+        return ask_direct(settings, "arm").accepted
+    except NoBridge:
+        return False
+
+
 def refusal_lines(kind: OpKind, answer: Answer) -> list[str]:
-    """Return what a person is told of a refusal: code, what came, and why in two languages."""
+    """Return what a person is told of a refusal: code, what came, and why."""
     from pons.code_messages import code_lines
 
     head = f"{kind}: refused, {answer.code}: {answer.detail}"
     if kind == "arm" and Mode.SELFTEST.value in answer.detail:  # neither armed nor latched
-        return [head, *_SELFTEST]
+        return [head, pick(*_SELFTEST)]
     return [head, *code_lines(answer.code)]
 
 

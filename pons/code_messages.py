@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bridge.core.faults.code_messages import SENTENCES, WANTS
 from bridge.core.faults.fault_messages import WORDS
+from pons.terminal import pick
 
 
 def sentence(code: str) -> tuple[str, str] | None:
@@ -14,10 +15,10 @@ def sentence(code: str) -> tuple[str, str] | None:
 def code_lines(code: str) -> list[str]:
     """Return the line to print below a cause, a fault or a refusal; none without words."""
     words = sentence(code)
-    return [] if words is None else [f"  {' / '.join(words)}"]
+    return [] if words is None else [f"  {pick(*words)}"]
 
 
 def lack_lines(code: str) -> list[str]:
     """Return the lines to print below a thing waited for."""
     words = WANTS.get(code)
-    return code_lines(code) if words is None else [f"  {' / '.join(words)}"]
+    return code_lines(code) if words is None else [f"  {pick(*words)}"]

@@ -18,6 +18,7 @@ from planner.site.fence import load_fence
 from planner.site.places import load_places
 from pons.bridge_client import NoBridge, fence_direct
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
+from pons.terminal import refusal
 from wire import ConfigError, FenceFile, fingerprint
 
 if TYPE_CHECKING:
@@ -29,25 +30,31 @@ EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PROPOSALS = "/v1/fence/proposals"
 
 
+ActResult = tuple[dict[str, Any], list[str]]
+"""What an act has done, as JSON and as lines."""
+
+
 class NotSaid(Exception):
     """The order lacks something, or names an absent thing."""
 
 
-def run(settings: LaunchSettings, act: str, what: str | None) -> int:
+def run(settings: LaunchSettings, act: str, what: str | None, *, as_json: bool = False) -> int:
     """Do one of show, propose, accept, reject; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
     try:
         if act == "show":
-            return _show(settings, what)
+            return _show(settings, what, as_json=as_json)
         if what is None:
             raise NotSaid(f"fence_{act}_what: say which {'file' if act == 'propose' else 'id'}")
-        return {"propose": _propose, "accept": _accept, "reject": _reject}[act](settings, what)
+        do = {"propose": _propose, "accept": _accept, "reject": _reject}[act]
+        done, lines = do(settings, what)
+        print(json.dumps(done, ensure_ascii=False, indent=1) if as_json else "\n".join(lines))
+        return EXIT_DONE
     except NotSaid as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_USAGE
     except (PlannerProblem, SiteError) as refused:
         told = refused.told if isinstance(refused, PlannerProblem) else refused.message
-        chinese = f"\n{told['zh']}" if "zh" in told else ""
-        print(f"refused: {refused}{chinese}", file=sys.stderr)
+        print(f"refused: {refusal(refused, told)}", file=sys.stderr)
         return EXIT_REFUSED
     except (PlannerDown, NoBridge, ConfigError) as trouble:
         print(
@@ -57,15 +64,18 @@ def run(settings: LaunchSettings, act: str, what: str | None) -> int:
         return EXIT_DOWN
 
 
-def _show(settings: LaunchSettings, proposal_id: str | None) -> int:
+def _show(settings: LaunchSettings, proposal_id: str | None, *, as_json: bool) -> int:
     if proposal_id is not None:
         item = _review(settings, proposal_id)
-        print(item["text"], end="")
+        print(json.dumps(item, ensure_ascii=False, indent=1) if as_json else item["text"], end="")
         return EXIT_DONE
     fence = call(settings, "GET", "/v1/fence")
+    items = call(settings, "GET", PROPOSALS)["proposals"]
+    if as_json:
+        print(json.dumps({**fence, "proposals": items}, ensure_ascii=False, indent=1))
+        return EXIT_DONE
     known = "the bridge holds it" if fence["agreed"] else f"bridge: {fence['bridge_fence_hash']}"
     print(f"fence {fence['fence_hash']} ({known})")
-    items = call(settings, "GET", PROPOSALS)["proposals"]
     for item in items:
         reason = f", last refused: {item['reason']}" if item["reason"] else ""
         print(f"{item['id']}  {item['state']} by {item['by']}{reason}")
@@ -75,7 +85,7 @@ def _show(settings: LaunchSettings, proposal_id: str | None) -> int:
     return EXIT_DONE
 
 
-def _propose(settings: LaunchSettings, name: str) -> int:
+def _propose(settings: LaunchSettings, name: str) -> ActResult:
     try:
         with open(name, encoding="utf-8") as file:  # noqa: PTH123  # a name, not one of our paths
             fence = json.load(file)
@@ -84,25 +94,23 @@ def _propose(settings: LaunchSettings, name: str) -> int:
     except ValueError as error:
         raise NotSaid(f"fence_file_no_json: {name}: {error}") from None
     item = call(settings, "POST", PROPOSALS, {"fence": fence, "source": "cli"})
-    print(f"proposed {item['id']}; nothing is in force yet")
     _print_diff(item["diff"])
-    print(f"put it in force while the robot is disarmed: pons fence accept {item['id']}")
-    return EXIT_DONE
+    accept = f"put it in force while the robot is disarmed: pons fence accept {item['id']}"
+    return item, [f"proposed {item['id']}; nothing is in force yet", accept]
 
 
-def _accept(settings: LaunchSettings, proposal_id: str) -> int:
+def _accept(settings: LaunchSettings, proposal_id: str) -> ActResult:
     item = _review(settings, proposal_id)
     answer = fence_direct(settings, item["text"])
     if not answer.accepted:
         raise PlannerProblem(409, answer.code, answer.detail)
-    print(f"accepted: {answer.detail}; bridge and planner start anew with it")
-    return EXIT_DONE
+    told = f"accepted: {answer.detail}; bridge and planner start again with it"
+    return {"accepted": proposal_id, "detail": answer.detail}, [told]
 
 
-def _reject(settings: LaunchSettings, proposal_id: str) -> int:
+def _reject(settings: LaunchSettings, proposal_id: str) -> ActResult:
     call(settings, "POST", f"{PROPOSALS}/{proposal_id}/reject", {"source": "cli"})
-    print(f"rejected {proposal_id}")
-    return EXIT_DONE
+    return {"rejected": proposal_id}, [f"rejected {proposal_id}"]
 
 
 def _review(settings: LaunchSettings, proposal_id: str) -> dict[str, Any]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import sys
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planner.language.folding import is_chinese
 from planner.language.stop import StopReading, is_stop, read_stop
 from pons import stop
-from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
+from pons.goal_progress import ShownProgress
+from pons.http import DEFAULT_TIMEOUT_S, PlannerDown, PlannerProblem, call, tell_unreached
+from pons.terminal import pick, refusal
 from pons.terminal_text import (
     FINAL_STATES,
     WAITING_STATES,
@@ -18,12 +22,9 @@ from pons.terminal_text import (
     how_to_answer,
     message,
     stand_in,
-    step_line,
 )
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from pons.settings import LaunchSettings
 
 POLL_S = 0.2
@@ -42,53 +43,71 @@ EXIT_WAITING = 5
 EXIT_UNREACHED = 6
 
 
-def say(settings: LaunchSettings, text: str, *, wait: bool, replace: bool = False) -> int:
-    """Give the goal; follow it to its end unless told not to.
+def say(
+    settings: LaunchSettings,
+    told: str | Path,
+    *,
+    wait: bool,
+    replace: bool = False,
+    as_json: bool = False,
+) -> int:
+    """Give the goal, a sentence or a recording of one; follow it to its end unless told not to.
 
     An order to stop goes both ways of `pons stop`, so that no planner is needed for it; so does a
     sentence that may mean stop, where the planner does not answer.
+
+    Args:
+        settings: of the robot.
+        told: the sentence, or a WAV file.
+        wait: whether to follow the goal.
+        replace: whether the running goal is forgotten.
+        as_json: whether to print the goal alone, as JSON, when it ends, asks or was accepted.
     """
-    reading = read_stop(text)
+    reading = StopReading.NONE if isinstance(told, Path) else read_stop(told)
     if reading is StopReading.ORDER:
-        return stop.run(settings)
-    body: dict[str, Any] = {"text": text}
-    if replace:
-        body["replace"] = True
+        return stop.run(settings, as_json=as_json)
     try:
-        if reading is StopReading.NONE:
-            goal = call(settings, "POST", "/v1/goals", body)
+        if isinstance(told, Path):
+            spoken = _send_sound(settings, told, replace=replace)
+            goal, language = spoken["goal"], spoken["language"]
+            if not as_json:
+                print(_heard_line(spoken))
+            if goal is None:
+                said = message(spoken["outcome"], pick("en", "zh"))
+                print(json.dumps(spoken, ensure_ascii=False) if as_json else f"  {said}")
+                return EXIT["refused"]
         else:
-            goal = call(settings, "POST", "/v1/goals", body, stop.HTTP_TIMEOUT_S)
+            body = {"text": told, **({"replace": True} if replace else {})}
+            limit_s = DEFAULT_TIMEOUT_S if reading is StopReading.NONE else stop.HTTP_TIMEOUT_S
+            goal, language = call(settings, "POST", "/v1/goals", body, limit_s), language_of(told)
+    except OSError as error:
+        cure = pick("check its path and rights", "无法读取该文件：请检查路径和权限")
+        print(f"unreadable_file: {told}: {error.strerror}; {cure}", file=sys.stderr)
+        return EXIT_NO_FILE
     except (PlannerDown, PlannerProblem) as trouble:
         if reading is not StopReading.NONE:
-            return stop.run(settings)
+            return stop.run(settings, as_json=as_json)
         return _trouble(trouble)
-    print(goal_line(goal), flush=True)
-    return _follow(settings, goal["id"], language_of(text)) if wait else 0
+    if not as_json:
+        print(goal_line(goal), flush=True)
+    elif not wait:
+        print(json.dumps(goal, ensure_ascii=False, indent=1))
+    return _follow(settings, goal["id"], language, as_json=as_json) if wait else 0
 
 
-def say_wav(settings: LaunchSettings, path: Path, *, wait: bool, replace: bool = False) -> int:
-    """Give a goal by a recording; tell its transcript and follow it."""
-    try:
-        with path.open("rb") as file:
-            sound = file.read(MAX_WAV_BYTES + 1)
-    except OSError as error:
-        told = f"unreadable_file: {path}: {error.strerror}\n  无法读取该文件：请检查路径和权限"
-        print(told, file=sys.stderr)
-        return EXIT_NO_FILE
+def _send_sound(settings: LaunchSettings, path: Path, *, replace: bool) -> dict[str, Any]:
+    """Return what the planner heard in a recording.
+
+    Raises:
+        OSError: the file can't be read.
+        PlannerDown, PlannerProblem: as ``call``.
+    """
+    with path.open("rb") as file:
+        sound = file.read(MAX_WAV_BYTES + 1)
     address = "/v1/voice?replace=true" if replace else "/v1/voice"
     sent = {"Content-Type": "audio/wav"}
-    try:
-        spoken = call(settings, "POST", address, None, WAV_TIMEOUT_S, sent, sound)
-    except (PlannerDown, PlannerProblem) as trouble:
-        return _trouble(trouble)
-    print(_heard_line(spoken))
-    goal = spoken["goal"]
-    if goal is None:
-        print(f"  {message(spoken['outcome'], 'en')}\n  {message(spoken['outcome'], 'zh')}")
-        return EXIT["refused"]
-    print(goal_line(goal), flush=True)
-    return _follow(settings, goal["id"], spoken["language"]) if wait else 0
+    spoken: dict[str, Any] = call(settings, "POST", address, None, WAV_TIMEOUT_S, sent, sound)
+    return spoken
 
 
 def _heard_line(spoken: dict[str, Any]) -> str:
@@ -247,18 +266,19 @@ def _asking(goals: list[dict[str, Any]], states: tuple[str, ...]) -> dict[str, A
     if len(waiting) == 1:
         return waiting[0]
     if not waiting:
-        print("no_goal: nothing waits for your answer / 没有任务在等待您的回答", file=sys.stderr)
+        none = pick("nothing waits for your answer", "没有任务在等待您的回答")
+        print(f"no_goal: {none}", file=sys.stderr)
         return None
-    print("which_goal: name one / 请指明一个：", file=sys.stderr)
+    print(f"which_goal: {pick('name one:', '请指明一个：')}", file=sys.stderr)
     for goal in waiting:
         asked = message(goal.get("outcome"), language_of(str(goal["text"])))
         print(f"  {goal_line(goal)}" + (f"\n    {asked}" if asked else ""), file=sys.stderr)
     return None
 
 
-def _follow(settings: LaunchSettings, goal_id: str, language: str) -> int:
-    """Print each change until the goal ends or needs a person."""
-    shown: list[str] = []
+def _follow(settings: LaunchSettings, goal_id: str, language: str, *, as_json: bool = False) -> int:
+    """Print each change until the goal ends or needs a person; as JSON, only how it ended."""
+    shown = ShownProgress(silent=as_json)
     begun_s = heard_s = time.monotonic()
     try:
         while True:
@@ -272,10 +292,18 @@ def _follow(settings: LaunchSettings, goal_id: str, language: str) -> int:
                 continue
             except PlannerProblem as trouble:
                 return _trouble(trouble)
-            _print_new(goal, shown)
-            if goal["state"] == "planning" and time.monotonic() - begun_s > LOADING_S:
+            shown.show(goal)
+            if (
+                not as_json
+                and goal["state"] == "planning"
+                and time.monotonic() - begun_s > LOADING_S
+            ):
                 _tell_load(settings, language, shown)
             if goal["state"] in FINAL_STATES | WAITING_STATES:
+                shown.clear()
+                if as_json:
+                    print(json.dumps(goal, ensure_ascii=False, indent=1))
+                    return EXIT.get(str(goal["state"]), EXIT_WAITING)
                 return _conclude(goal, language)
             time.sleep(POLL_S)
     except KeyboardInterrupt:
@@ -283,25 +311,14 @@ def _follow(settings: LaunchSettings, goal_id: str, language: str) -> int:
         return 130
 
 
-def _print_new(goal: dict[str, Any], shown: list[str]) -> None:
-    steps = (goal.get("plan") or {}).get("steps") or []
-    lines = [step_line(number, step) for number, step in enumerate(steps, 1)]
-    lines.append(f"  {goal['state']}" + (f" ({goal['reason']})" if goal.get("reason") else ""))
-    for line in lines:
-        if line not in shown:
-            shown.append(line)
-            print(line, flush=True)
-
-
-def _tell_load(settings: LaunchSettings, language: str, shown: list[str]) -> None:
+def _tell_load(settings: LaunchSettings, language: str, shown: ShownProgress) -> None:
     """Say once why no plan comes, where the model's server may still be loading it."""
     from planner.language.catalogue import say as words  # only here: its words are read from a file
     from planner.plan import Language
 
     told = f"  {words('model_error.slow').of(Language(language))}"
-    if told not in shown and call(settings, "GET", "/v1/robot")["brain"]["loads"]:
-        shown.append(told)
-        print(told, flush=True)
+    if not shown.has(told) and call(settings, "GET", "/v1/robot")["brain"]["loads"]:
+        shown.print_new([told])
 
 
 def _conclude(goal: dict[str, Any], language: str) -> int:
@@ -318,8 +335,9 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
 
 
 def _trouble(trouble: Exception) -> int:
-    print(tell_unreached(trouble) if isinstance(trouble, PlannerDown) else trouble, file=sys.stderr)
+    """Say what went wrong, once; return 3 where the planner refused, 6 where nobody answers."""
     if isinstance(trouble, PlannerProblem):
-        for sentence in trouble.told.values():
-            print(f"  {sentence}", file=sys.stderr)
+        print(f"refused: {refusal(trouble, trouble.told)}", file=sys.stderr)
+        return EXIT["refused"]
+    print(tell_unreached(trouble), file=sys.stderr)
     return EXIT_UNREACHED

@@ -9,6 +9,8 @@ import ssl
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pons.terminal import pick
+
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
@@ -24,7 +26,8 @@ class PlannerDown(Exception):
 
 def tell_unreached(trouble: Exception) -> str:
     """Return what a person is told where nothing answers: what came, and what to look at."""
-    return f"planner_down: {trouble}. Is `pons up` running?\n没有应答：`pons up` 是否在运行？"
+    is_up = pick("Is `pons up` running?", "没有应答：`pons up` 是否在运行？")
+    return f"planner_down: {trouble}. {is_up}"
 
 
 class PlannerProblem(Exception):

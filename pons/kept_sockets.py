@@ -42,6 +42,11 @@ class KeptSockets:
         """Keep the sockets of a child that lives; return the paths that had to be brought back."""
         return [str(path) for path in self._paths.get(child, ()) if _is_brought_back(path)]
 
+    def is_kept(self, child: str) -> bool:
+        """Return whether a child listens at each of its sockets; false of one that has none."""
+        paths = self._paths.get(child, ())
+        return bool(paths) and all(_second(path).exists() for path in paths)
+
     def forget(self, child: str) -> None:
         """Keep nothing of a child that has died: its next life makes sockets of its own."""
         for path in self._paths.get(child, ()):

@@ -7,6 +7,7 @@ import shutil
 import socket
 from typing import TYPE_CHECKING
 
+from pons.terminal import pick, speaks_chinese
 from wire import ConfigError, load_robot
 
 if TYPE_CHECKING:
@@ -78,7 +79,9 @@ def check(settings: LaunchSettings) -> RobotDescription:
 
 
 def in_chinese(why: Exception) -> str:
-    """Return the line in Chinese below a refusal; empty where there is none."""
+    """Return the line below a refusal where the person reads Chinese; empty where there is none."""
+    if not speaks_chinese():
+        return ""
     if isinstance(why, CannotStart):
         return f"\n{why.chinese}" if why.chinese else ""
     from maps.errors import SiteError  # brings YAML: for who is refused alone
@@ -87,7 +90,7 @@ def in_chinese(why: Exception) -> str:
 
 
 def site_flaw(settings: LaunchSettings, told: str, *, planner: bool) -> str:
-    """Return lines that say in both languages what is wrong with the site; empty where it loads.
+    """Return lines that say what is wrong with the site; empty where it loads.
 
     Each process that reads it refuses by itself, and which one does first is chance.
 
@@ -106,9 +109,9 @@ def site_flaw(settings: LaunchSettings, told: str, *, planner: bool) -> str:
         else:
             load_map(settings.site / "map.yaml")
     except SiteError as refused:
-        english = "" if str(refused) in told else f"\nthe site: {refused}"
-        command = f"pons site check {settings.site}"
-        return f"{english}\n站点：{refused.message['zh']}\ncheck it / 检查站点: {command}"
+        said = f"\nthe site: {refused}" if str(refused) not in told else ""
+        said = f"\n站点：{refused.message['zh']}" if speaks_chinese() else said
+        return f"{said}\n{pick('check it', '检查站点')}: pons site check {settings.site}"
     return ""
 
 

@@ -6,6 +6,8 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from devices import PORT_CURES
+from pons.terminal import command_path, pick, speaks_chinese
+from pons_assets import ROOT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -67,12 +69,14 @@ CHINESE: Final[Mapping[str, str]] = {
 }
 """By code: what a person does about it."""
 SEARCHES = (
-    "      the robot is looking for where it is, and stands still. On that page press"
-    " “The robot is here …”\n"
-    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”"
+    (
+        "      the robot is looking for where it is, and stands still. On that page press"
+        " “The robot is here …”"
+    ),
+    "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”",
 )
-SET_UP = "set-up: no bridge, nothing drives; try the robot on that page / 设置模式：请在网页上测试"
-UNREACHED = "not reached yet: dialled until it answers / 尚未连上机器人：会一直重试，网页可用"
+SET_UP = "set-up: no bridge, nothing drives; try the robot on that page", "设置模式：请在网页上测试"
+UNREACHED = "not reached yet: dialled until it answers", "尚未连上机器人：会一直重试，网页可用"
 
 
 def chinese_cure(refusal: str) -> str | None:
@@ -92,29 +96,45 @@ def _detector_flaw(code: str) -> str | None:
 
 
 def chinese_line(refusal: str) -> str:
-    """Return the cure as a line below a refusal; empty where none is known."""
-    cure = chinese_cure(refusal)
+    """Return the cure as a line below a refusal, where the person reads Chinese; else empty."""
+    cure = chinese_cure(refusal) if speaks_chinese() else None
     return "" if cure is None else f"\n  {cure}"
 
 
 def drives_to_try(site: Path) -> str:
-    """Return an order in each language for places that this very site has."""
+    """Return an order for a place that this very site has."""
     from planner.site import Site, SiteError  # late: `pons status` reads this file too
 
     try:
         rooms = [place for place in Site.load(site).places if place.kind == "room"]
     except SiteError:
         rooms = []  # what runs has read it; it was changed since
+    say = f"{command_path()} say"
     if not rooms:
-        return 'pons say "go home"   pons say 回家'
-    english, chinese = rooms[0].name.en, rooms[1 % len(rooms)].name.zh
-    return f'pons say "go to the {english}"   pons say 去{chinese}'
+        return pick(f'{say} "go home"', f"{say} 回家")
+    name = rooms[0].name
+    return pick(f'{say} "go to the {name.en}"', f"{say} 去{name.zh}")
 
 
-def what_to_try(settings: LaunchSettings) -> str:
-    """Return a line for a person who has just started a robot."""
+def what_to_try(settings: LaunchSettings, *, arms: bool = False) -> str:
+    """Return a line for a person who has just started a robot.
+
+    Args:
+        settings: of the launch.
+        arms: whether a person must arm it first, as one of metal.
+    """
+    pons = command_path()
+    first = f"{pons} arm   then " if arms else ""
     if settings.mapping is not None:
         # No distance: nobody knows yet how much room there is ahead.
-        steps = 'pons say "turn around"   pons say "explore the house"   pons say 探索一下房子'
-        return f"try: {steps}, then: pons map {settings.mapping}"
-    return f"try: {drives_to_try(settings.site)}   pons stop"
+        explore = pick('"explore the house"', "探索一下房子")
+        return f"try: {first}{pons} say {explore}, then: {pons} map {settings.mapping}"
+    return f"try: {first}{drives_to_try(settings.site)}   {pons} stop"
+
+
+def brain_example(home: Path, root: Path = ROOT) -> str:
+    """Return a command to try on a robot that has no planner; a wheel brings no examples."""
+    example = root / "examples" / "external_brain.py"
+    if example.is_file():
+        return f"python {example} --home {home}"
+    return f"a brain of your own with --home {home}, as examples/external_brain.py of a checkout is"

@@ -30,9 +30,11 @@ from planner.language.catalogue import say
 from planner.site.polygon import contains
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_KEPT, TaughtPlaces
+from pons.command_parser import CommandParser
 from pons.site import is_site_name, site_name_malformed
 from pons.site_refusals import keyframes_malformed, recording_refused, site_refusal
 from pons.site_rooms import proposal_line
+from pons.terminal import pick, refusal
 from wire import ConfigError, load_robot
 from wire.fingerprint import map_id
 from wire.site_map import read_map_id
@@ -58,7 +60,12 @@ MIN_FREE_BYTES = 50 * 1024 * 1024
 
 def parser() -> argparse.ArgumentParser:
     """Return the grammar of ``pons map``."""
-    top = argparse.ArgumentParser(prog="pons map", description=__doc__)
+    top = CommandParser(
+        prog="pons map",
+        description="Make a site of a drive: of what `pons up --map NAME` has kept, or of "
+        "recordings of one run. With --mend compare a site with a drive. Needs no running robot.",
+        examples=["pons map attic", "pons map attic --mend", "pons map attic --accept 1f2e3d4c"],
+    )
     top.add_argument("name", help="of the new site: small letters, digits, _")
     top.add_argument(
         "recordings", type=Path, nargs="*", metavar="FILE", help="of one run, in order"
@@ -85,9 +92,8 @@ def _numbers(text: str) -> frozenset[int]:
     try:
         return frozenset(map(int, text.split(",")))
     except ValueError:
-        told = (
-            f"{text!r}; expected numbers as the list shows them, as 3,5 / 应为列表中的编号，如 3,5"
-        )
+        expected = pick("expected numbers as the list shows them, as 3,5", "应为列表中的编号")
+        told = f"{text!r}; {expected}"
         raise argparse.ArgumentTypeError(told) from None
 
 
@@ -111,12 +117,12 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         made.write(folder)
         names = 0 if said.recordings else _carry_names(settings.home, said.name, made)
     except PlaceRefusal as refused:
-        text = f"refused: its names could not be kept: {refused}"
-        print(f"{text}\n名称未能保存：{refused.why.zh}", file=sys.stderr)
+        chinese = f"refused: 名称未能保存：{refused.why.zh}"
+        print(pick(f"refused: its names could not be kept: {refused}", chinese), file=sys.stderr)
         return EXIT_REFUSED
     except ConfigError as refused:
-        zh = f"\n{refused.message['zh']}" if isinstance(refused, SiteError) else ""
-        print(f"refused: {refused}{zh}", file=sys.stderr)
+        told = refused.message if isinstance(refused, SiteError) else {}
+        print(f"refused: {refusal(refused, told)}", file=sys.stderr)
         return EXIT_REFUSED
     print(f"{folder}: of {source}, {len(builder.keyframes)} keyframes and {builder.loops} loops")
     if names:

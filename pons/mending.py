@@ -45,6 +45,7 @@ from pons.settings import site_of
 from pons.site import site_missing
 from pons.site_findings import print_findings
 from pons.site_refusals import keyframes_malformed, site_refusal
+from pons.terminal import pick
 from pons_assets import SITES
 from wire import ConfigError
 from wire.fence import fence_text
@@ -127,12 +128,13 @@ def propose_mend(
     lidar_m = (robot.lidar.x_m, robot.lidar.y_m)
     proposal = propose(loaded.map_id, loaded.grid, keyframes, lidar_m, left_out)
     if not proposal.changes:
-        print(f"{folder.name} is as its map says; nothing to mend\n与地图一致，无需修改")
+        print(f"{folder.name}: {pick('as its map says, nothing to mend', '与地图一致，无需修改')}")
         return
     where = _proposal_folder(settings, folder)
     keep(proposal, where, write_keyframes(keyframes, PoseGraph().table()))
     _print_changes(proposal, Site.load(folder))
-    print(f"picture: {where / PICTURE} (red gone, blue new, green floor / 红：已不在，蓝：新出现)")
+    legend = pick("red gone, blue new, green floor", "红：已不在，蓝：新出现，绿：地面")
+    print(f"picture: {where / PICTURE} ({legend})")
     if not proposal.accepted_changes:
         print("all of it is left out; nothing would change")
         return
@@ -340,9 +342,9 @@ def _read_list(settings: LaunchSettings, folder: Path) -> dict[str, str]:
 
 def _print_changes(proposal: MendProposal, site: Site) -> None:
     for number, change in enumerate(proposal.changes, 1):
-        en, zh = _WORDS[change.kind]
+        kind = pick(*_WORDS[change.kind])
         room = site.room_at(change.x_m, change.y_m)
-        where = "" if room is None else f"  {room.name.en} / {room.name.zh}"
-        out = "  (left out / 略去)" if number in proposal.left_out else ""
-        print(f"{number:3}  {en:5} {zh}  {change.width_m:.2f} x {change.depth_m:.2f} m "
+        where = "" if room is None else f"  {pick(room.name.en, room.name.zh)}"
+        out = f"  ({pick('left out', '略去')})" if number in proposal.left_out else ""
+        print(f"{number:3}  {kind:5}  {change.width_m:.2f} x {change.depth_m:.2f} m "
               f"at ({change.x_m:.2f}, {change.y_m:.2f}){where}{out}")  # fmt: skip

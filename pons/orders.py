@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from pons.http import PlannerDown, PlannerProblem, call, fetch_text, tell_unreached
+from pons.terminal import pick, pick_of, refusal
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -39,8 +40,7 @@ def run(settings: LaunchSettings, act: str, words: list[str], *, as_json: bool =
             return _import(settings, what)
         answer = _ask(settings, act, what)
     except PlannerProblem as refused:
-        told = "\n".join(refused.told.values())
-        print(f"refused: {refused}" + (f"\n{told}" if told else ""), file=sys.stderr)
+        print(f"refused: {refusal(refused, refused.told)}", file=sys.stderr)
         return EXIT_REFUSED
     except PlannerDown as trouble:
         print(tell_unreached(trouble), file=sys.stderr)
@@ -80,13 +80,14 @@ def _import(settings: LaunchSettings, file: str) -> int:
     told = call(settings, "POST", CALENDAR, body, THINKING_S)
     for each in told["proposed"]:
         skipped = f" (not on {', '.join(each['skipped'])})" if each["skipped"] else ""
-        print(f"{each['when']['en']}{skipped}: {each['does']['en']}  [{each['name']}]")
+        print(f"{pick_of(each['when'])}{skipped}: {pick_of(each['does'])}  [{each['name']}]")
     for each in told["refused"]:
-        why = each["message"]
-        print(f"refused {each['name']}: {each['code']}: {why['en']}\n{why['zh']}", file=sys.stderr)
+        why = pick_of(each["message"])
+        print(f"refused {each['name']}: {each['code']}: {why}", file=sys.stderr)
     if not told["proposed"]:
         return EXIT_REFUSED
-    print(f"Keep these {len(told['proposed'])}? 要保留这些吗？ [y/N] ", end="", flush=True)
+    count = len(told["proposed"])
+    print(pick(f"Keep these {count}? [y/N] ", f"要保留这 {count} 项吗？[y/N] "), end="", flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes", "是"):
         return EXIT_REFUSED
     kept = call(settings, "POST", CALENDAR, {**body, "agreed": told["agree"]}, THINKING_S)["kept"]

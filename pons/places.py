@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
+from pons.terminal import pick_of, refusal
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -21,23 +22,32 @@ _KEPT = ("id", "name", "pose", "map_id", "by", "taught")
 """What places.json holds of each."""
 
 
-def run(settings: LaunchSettings, act: str, name: str | None, *, chinese: str | None = None) -> int:
+def run(
+    settings: LaunchSettings,
+    act: str,
+    name: str | None,
+    *,
+    chinese: str | None = None,
+    as_json: bool = False,
+) -> int:
     """Do one of the acts; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
     if act in ("remember", "forget") and name is None and (chinese is None or act == "forget"):
         print(f"no_name: say which place to {act}", file=sys.stderr)
         return EXIT_USAGE
     try:
         if act == "remember":
-            _remember(settings, name, chinese)
+            _tell("remembered", _remember(settings, name, chinese), as_json=as_json)
         elif act == "forget":
-            _forget(settings, name or "")
+            path = f"{PATH}/{quote(name or '', safe='')}"
+            _tell("forgotten", call(settings, "DELETE", path), as_json=as_json)
         elif act == "export":
             _export(settings)
+        elif as_json:
+            print(json.dumps(call(settings, "GET", PATH), ensure_ascii=False, indent=1))
         else:
             _list(settings)
     except PlannerProblem as refused:
-        told = " ".join(refused.told.values())
-        print(f"refused: {refused}" + (f"\n{told}" if told else ""), file=sys.stderr)
+        print(f"refused: {refusal(refused, refused.told)}", file=sys.stderr)
         return EXIT_REFUSED
     except PlannerDown as trouble:
         print(tell_unreached(trouble), file=sys.stderr)
@@ -51,7 +61,7 @@ def _list(settings: LaunchSettings) -> None:
     for place in own:
         print(f"{place['id']:<24} {_names(place)}")
     for place in known["taught"]:
-        why = f"; not used: {place['message']['en']}" if place["why_not"] else ""
+        why = f"; not used: {pick_of(place['message'])}" if place["why_not"] else ""
         print(f"{place['id']:<24} {_names(place)}  {_origin(place)}{why}")
     here = sum(place["why_not"] != "other_map" for place in known["taught"])
     print(f"{here} of {known['most']} taught on this map")
@@ -64,16 +74,16 @@ def _export(settings: LaunchSettings) -> None:
     print(json.dumps({"version": 1, "places": places}, ensure_ascii=False, indent=1))
 
 
-def _remember(settings: LaunchSettings, name: str | None, chinese: str | None) -> None:
+def _remember(settings: LaunchSettings, name: str | None, chinese: str | None) -> dict[str, Any]:
     given = {"en": name, "zh": chinese}
     names = {language: said for language, said in given.items() if said is not None}
-    place = call(settings, "POST", PATH, {"name": names, "source": "cli"})
-    print(f"remembered {place['id']}: {_names(place)}  {_origin(place)}")
+    return dict(call(settings, "POST", PATH, {"name": names, "source": "cli"}))
 
 
-def _forget(settings: LaunchSettings, name: str) -> None:
-    place = call(settings, "DELETE", f"{PATH}/{quote(name, safe='')}")
-    print(f"forgotten {place['id']}: {_names(place)}")
+def _tell(done: str, place: dict[str, Any], *, as_json: bool) -> None:
+    where = f"  {_origin(place)}" if done == "remembered" else ""
+    shown = f"{done} {place['id']}: {_names(place)}{where}"
+    print(json.dumps(place, ensure_ascii=False, indent=1) if as_json else shown)
 
 
 def _ids(taught: list[dict[str, Any]]) -> set[str]:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from maps import load_map
+from pons.terminal import refusal
 from ros2.mounting import NoMounting, find_mounting
 from ros2.occupancy import map_files
 from ros2.robot_link import fetch
@@ -55,7 +56,8 @@ def print_mounting(robot: RobotDescription) -> int:
         found, frame = fetch_mounting(_locator(robot))
     except TopicFailure as why:
         refused = TopicRefusal(why.trouble)
-        print(f"refused: {refused}\n{refused.cure_zh}", file=sys.stderr)
+        told = {"en": CODES[refused.code][0], "zh": refused.cure_zh}
+        print(f"refused: {refusal(refused, told)}", file=sys.stderr)
         return EXIT_REFUSED
     print(f"# {frame} in {found.base}, {found.z_m:.2f} m above it")
     print('[lidar]\nkind = "ros2"')

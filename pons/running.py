@@ -141,6 +141,12 @@ def of_this_user(settings: LaunchSettings) -> LaunchSettings:
     return ours[0] if len(ours) == 1 else settings
 
 
+def of_running(settings: LaunchSettings) -> LaunchSettings:
+    """Return settings with the robot.toml and the site of the robot that runs in this home."""
+    found = next((one for one in find_robots() if one.home == settings.home), None)
+    return settings if found is None else replace(settings, robot=found.robot, site=found.site)
+
+
 def describe_robot(robot: LaunchSettings) -> str:
     """Return which robot it is: its id, its folder and whose it is, as far as that is known."""
     user = "" if robot.owner_uid is None else f", user {robot.owner_uid}"

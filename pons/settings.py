@@ -9,7 +9,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from pons_assets import DEFAULT_SITE, ROBOT_FILE, ROOT, SITES
+from pons_assets import DEFAULT_SITE, ROBOT_FILE, ROBOTS, ROOT, SITES
 
 CHECKOUT = ROOT
 """Where tests and tools find robot.toml and sites."""
@@ -19,6 +19,8 @@ PLANNER_MARK = Path("run") / "planner" / "address"
 """Where this home's planner answers, as it said when it began (planner/tls.py)."""
 NAMES_A_ROBOT = ("PONS_HOME", "PONS_HOST", "PONS_PORT")
 """Variables by which a person says which robot is meant."""
+OWN_ROBOT = "robot.toml"
+"""In ``$PONS_HOME``: the robot of this home, as ``pons robot new`` wrote it."""
 _HERE = {"0.0.0.0": "127.0.0.1", "::": "::1"}
 
 
@@ -94,7 +96,7 @@ def load(*, forgiving: bool = False, starts: bool = False) -> LaunchSettings:
     scheme, host, port = said or ("http", DEFAULT_HOST, DEFAULT_PORT)
     return LaunchSettings(
         home=home,
-        robot=Path(given.get("PONS_ROBOT", ROBOT_FILE)).absolute(),
+        robot=robot_of(given.get("PONS_ROBOT", ""), home),
         site=site_of(given.get("PONS_SITE", str(DEFAULT_SITE)), home),
         host=given.get("PONS_HOST", host),
         port=_port(given.get("PONS_PORT", str(port)), forgiving=forgiving),
@@ -109,6 +111,19 @@ def site_of(given: str, home: Path) -> Path:
     folders = (Path(given), home / "sites" / given, SITES / given)
     there = (folder for folder in folders if os.path.isdir(folder))  # noqa: PTH112  # as above
     return next(there, folders[0]).absolute()
+
+
+def robot_of(given: str, home: Path) -> Path:
+    """Return a robot.toml by its path or a preset's name; without either the home's own.
+
+    A home gets one by ``pons robot new``; the demo robot's is used where it has none.
+    """
+    if not given:
+        own = home / OWN_ROBOT
+        return own if os.path.isfile(own) else ROBOT_FILE  # noqa: PTH113  # as below
+    files = (Path(given), ROBOTS / f"{given}.toml", ROBOTS.parent / given)
+    named = files[:2] if "/" not in given else (files[0], files[2])
+    return next((file for file in named if os.path.isfile(file)), files[0]).absolute()  # noqa: PTH113
 
 
 def planner_address(home: Path) -> tuple[str, str, int] | None:

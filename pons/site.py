@@ -7,6 +7,7 @@ Works on folders and needs no planner; a running robot takes a changed site at i
 from __future__ import annotations
 
 import argparse
+import json
 import re
 import shutil
 import sys
@@ -20,9 +21,11 @@ from maps.map_file import FARTHEST_M, load_picture
 from maps.masks import SpeedScale, join_masks, read_keep_outs, read_speed_zones
 from maps.new_site import ASK_FROM_SHARE, new_site, place_text
 from maps.room_proposals import read_proposals
+from pons.command_parser import CommandParser
 from pons.settings import site_of
 from pons.site_findings import print_findings
 from pons.site_rooms import print_rooms, proposal_line
+from pons.terminal import pick, refusal
 from wire import ConfigError, Pose2, load_robot, wrap
 from wire.fence import fence_text
 
@@ -43,9 +46,16 @@ _NAME = re.compile(r"[a-z][a-z0-9_]{0,31}")
 
 def parser() -> argparse.ArgumentParser:
     """Return the grammar of ``pons site``."""
-    top = argparse.ArgumentParser(prog="pons site", description=__doc__)
-    acts = top.add_subparsers(dest="act", required=True, metavar="ACT")
-    made = acts.add_parser("import", help="make a site of a Nav2 map, or of a picture")
+    top = CommandParser(
+        prog="pons site",
+        description="Make a site of a map, name its rooms, check it. Works on folders and needs no "
+        "running robot; one that runs takes a changed site at its next start.",
+        examples=["pons site import map.yaml attic", "pons site check attic"],
+    )
+    acts = top.add_subparsers(dest="act", required=True, metavar="ACT", parser_class=CommandParser)
+    what = "make a site of a Nav2 map, or of a picture"
+    example = "pons site import map.yaml attic --start 0 0 90"
+    made = acts.add_parser("import", help=what, description=what, examples=[example])
     made.add_argument(
         "map", help="map.yaml, a PGM or PNG with --resolution, or ros2:/map of a ROS 2 robot"
     )
@@ -60,21 +70,41 @@ def parser() -> argparse.ArgumentParser:
         "--unknown", choices=("unknown", "free"), help="what grey 205 is where the file frees it"
     )
     _add_masks(made)
-    acts.add_parser("list", help="list the sites")
+    _with_json(acts, "list", "list the sites", "pons site list --json")
     for act, what in (
         ("rooms", "show the rooms that are proposed, with and without a name"),
         ("check", "say what is wrong with a site"),
     ):
-        acts.add_parser(act, help=what).add_argument("name", help="a site, by name or folder")
-    named = acts.add_parser("name", help="accept a proposed room under a name")
+        shown = _with_json(acts, act, what, f"pons site {act} attic")
+        shown.add_argument("name", help="a site, by name or folder")
+    what, example = (
+        "accept a proposed room under a name",
+        "pons site name attic room_1 study --zh 书房",
+    )
+    named = acts.add_parser("name", help=what, description=what, examples=[example])
     named.add_argument("name", help="a site, by name or folder")
     named.add_argument("room", help="room_1 and so on, as `pons site rooms` shows them")
     named.add_argument("english", help="what people call it")
     named.add_argument("--zh", metavar="NAME", help="its Chinese name")
-    masked = acts.add_parser("masks", help="print the site's fence with masks joined to it")
+    what, example = (
+        "print the site's fence with masks joined to it",
+        "pons site masks attic --keepout k.yaml",
+    )
+    masked = acts.add_parser("masks", help=what, description=what, examples=[example])
     masked.add_argument("name", help="a site, by name or folder")
     _add_masks(masked)
     return top
+
+
+def _with_json(
+    acts: argparse._SubParsersAction[CommandParser],  # it has no public name
+    act: str,
+    what: str,
+    example: str,
+) -> CommandParser:
+    made = acts.add_parser(act, help=what, description=what, examples=[example])
+    made.add_argument("--json", action="store_true", help="as JSON")
+    return made
 
 
 def _add_masks(parser: argparse.ArgumentParser) -> None:
@@ -92,30 +122,30 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
         if said.act == "import":
             return _import(settings, said)
         if said.act == "list":
-            return _list(settings)
+            return _list(settings, as_json=said.json)
         folder = site_of(said.name, settings.home)
         if not (folder / "map.yaml").is_file():
             raise site_missing(said.name, settings.home)
         if said.act == "check":
-            return _check(settings, folder)
+            return _check(settings, folder, as_json=said.json)
         if said.act == "rooms":
-            print_rooms(folder, settings.home)
+            print_rooms(folder, settings.home, as_json=said.json)
             return EXIT_DONE
         if said.act == "masks":
             return _print_fence_with_masks(settings, folder, said)
         return _name_room(folder, said.room, said.english, said.zh or said.english)
     except ConfigError as refused:
-        print(f"refused: {refused}{_chinese(refused)}", file=sys.stderr)
+        print(f"refused: {refusal(refused, _told(refused))}", file=sys.stderr)
         return EXIT_REFUSED
 
 
-def _chinese(refused: ConfigError) -> str:
-    """Return the line in Chinese below a refusal; empty where there is none."""
+def _told(refused: ConfigError) -> dict[str, str]:
+    """Return a refusal's sentence in Chinese, where it has one; English stands in the error."""
     from pons.ros2_robot import TopicRefusal
 
     if isinstance(refused, SiteError):
-        return f"\n{refused.message['zh']}"
-    return f"\n{refused.cure_zh}" if isinstance(refused, TopicRefusal) else ""
+        return {"zh": refused.message["zh"]}
+    return {"zh": refused.cure_zh} if isinstance(refused, TopicRefusal) else {}
 
 
 def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
@@ -130,7 +160,8 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     start = None if said.start is None else _start(said.start)
     if len(loaded.grid.cells) >= LARGE_CELLS:
         print(
-            "a large map: this takes a minute or more / 地图很大，需要一分钟以上", file=sys.stderr
+            pick("a large map: this takes a minute or more", "地图很大，需要一分钟以上"),
+            file=sys.stderr,
         )
     made = new_site(loaded, robot.base.radius_m, start, _masks(said, loaded.grid, robot))
     folder = settings.home / "sites" / said.name
@@ -142,18 +173,18 @@ def _import(settings: LaunchSettings, said: argparse.Namespace) -> int:
     print(proposal_line(made))
     print_rooms(folder, settings.home)
     if _has_errors(print_findings(folder, settings.home, robot.base.radius_m)):
-        print("before you drive there, mend what is an error / 出发前请先解决上面的错误（error）")
+        print(pick("before you drive there, mend what is an error", "出发前请先解决上面的错误"))
         return EXIT_FOUND
     print(f"drive there: pons up --site {said.name}")
     return EXIT_DONE
 
 
 def _print_usage(code: str, told: str) -> int:
-    """Print what an order lacks, in both languages; return the status of a bad order."""
+    """Print what an order lacks; return the status of a bad order."""
     from planner.language.catalogue import say
 
     words = say(f"site_refusal.{told}")
-    print(f"{code}: {words.en}\n{words.zh}", file=sys.stderr)
+    print(f"{code}: {pick(words.en, words.zh)}", file=sys.stderr)
     return EXIT_USAGE
 
 
@@ -249,13 +280,18 @@ def _radius_m(settings: LaunchSettings) -> float:
     return load_robot(settings.robot).base.radius_m
 
 
-def _list(settings: LaunchSettings) -> int:
+def _list(settings: LaunchSettings, *, as_json: bool) -> int:
     from pons_assets import SITES
 
-    for parent in (settings.home / "sites", SITES):
-        for path in sorted(parent.glob("*/map.yaml")):
-            if not path.parent.name.startswith("."):  # what a mend left beside it
-                print(f"{path.parent.name:<24} {path.parent}")
+    parents = (settings.home / "sites", SITES)
+    found = [path.parent for parent in parents for path in sorted(parent.glob("*/map.yaml"))]
+    shown = [folder for folder in found if not folder.name.startswith(".")]  # a mend's are not
+    if as_json:
+        sites = [{"name": folder.name, "folder": str(folder)} for folder in shown]
+        print(json.dumps({"sites": sites}, ensure_ascii=False, indent=1))
+        return EXIT_DONE
+    for folder in shown:
+        print(f"{folder.name:<24} {folder}")
     return EXIT_DONE
 
 
@@ -336,11 +372,12 @@ def _print_fence_with_masks(
     return EXIT_DONE
 
 
-def _check(settings: LaunchSettings, folder: Path) -> int:
-    found = print_findings(folder, settings.home, _radius_m(settings))
-    if not found:
-        print(f"{folder.name}: nothing is wrong / 没有问题")
-    return EXIT_FOUND if found else EXIT_DONE
+def _check(settings: LaunchSettings, folder: Path, *, as_json: bool) -> int:
+    """Print what was found; a warning alone is no reason for another exit status than 0."""
+    found = print_findings(folder, settings.home, _radius_m(settings), as_json=as_json)
+    if not found and not as_json:
+        print(f"{folder.name}: {pick('nothing is wrong', '没有问题')}")
+    return EXIT_FOUND if _has_errors(found) else EXIT_DONE
 
 
 def _has_errors(found: list[SiteFinding]) -> bool:

@@ -5,9 +5,11 @@ The check of a site reads its folder alone; rooms named at the page lie in the h
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING
 
 from pons.site_rooms import has_named_room
+from pons.terminal import pick
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -16,15 +18,21 @@ if TYPE_CHECKING:
 
 
 def print_findings(
-    folder: Path, home: Path, radius_m: float, *, taught_in: Path | None = None
+    folder: Path,
+    home: Path,
+    radius_m: float,
+    *,
+    taught_in: Path | None = None,
+    as_json: bool = False,
 ) -> list[SiteFinding]:
-    """Print two lines for each finding, in English and in Chinese; return the findings.
+    """Print a line for each finding; return the findings.
 
     Args:
         folder: the site's.
         home: where the state lies, and in it what people taught.
         radius_m: of the robot.
         taught_in: the site on whose map they taught it; None: on this one's.
+        as_json: whether to print one object in their place.
 
     Raises:
         SiteError: the site or the store of taught places can't be read.
@@ -35,8 +43,16 @@ def print_findings(
     if any(finding.code == "no_rooms" for finding in found):
         named = has_named_room(taught_in or folder, home)
         found = [finding for finding in found if not (named and finding.code == "no_rooms")]
+    if as_json:
+        told = [
+            {"level": one.level, "code": one.code, "message": one.words.model_dump()}
+            for one in found
+        ]
+        print(json.dumps({"findings": told}, ensure_ascii=False, indent=1))
+        return found
     for finding in found:
-        print(f"{finding.level}: {finding.code}: {finding.words.en}\n  {finding.words.zh}")
+        words = pick(finding.words.en, finding.words.zh)
+        print(f"{finding.level}: {finding.code}: {words}")
     return found
 
 

@@ -5,6 +5,7 @@ Reads files alone: what was taught lies in the home's own store, whether a plann
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING
 
 from maps.room_proposals import read_proposals
@@ -23,17 +24,33 @@ def proposal_line(made: NewSite) -> str:
     return f"home at ({made.home.x_m:.2f}, {made.home.y_m:.2f}); {rooms} proposed"
 
 
-def print_rooms(folder: Path, home: Path) -> None:
+def print_rooms(folder: Path, home: Path, *, as_json: bool = False) -> None:
     """Print a line for each proposed room: its area, its middle, and its name where it has one.
 
     Args:
         folder: the site's.
         home: where the state lies, and in it what people taught.
+        as_json: whether to print one object in their place.
 
     Raises:
         SiteError: the site or the store of taught places can't be read.
     """
     places, proposals = _places(folder, home), read_proposals(folder)
+    if as_json:
+        rooms = [
+            {
+                "id": room.id,
+                "area_m2": room.area_m2,
+                "x_m": room.pose.x_m,
+                "y_m": room.pose.y_m,
+                "name": named.name.model_dump()
+                if (named := places.room_at(room.pose.x_m, room.pose.y_m))
+                else None,
+            }
+            for room in proposals
+        ]
+        print(json.dumps({"rooms": rooms}, ensure_ascii=False, indent=1))
+        return
     for room in proposals:
         named = places.room_at(room.pose.x_m, room.pose.y_m)
         name = f"named {named.name.en}" if named else "no name yet"

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.settings import asker, is_robot_named
+from pons.terminal import pick
 
 if TYPE_CHECKING:
     from typing import Literal, NoReturn
@@ -32,13 +33,23 @@ HTTP_HEAD_START_S = 0.15
 HTTP_TIMEOUT_S = 2.5
 GUESS_S = 0.5
 """So long a robot of which nothing was found is waited for, once the others have answered."""
-EXIT_UNCONFIRMED = {"stop": 1, "estop": 6, "disarm": 6}
+EXIT_UNCONFIRMED = 6
 EXIT_REFUSED = 3
-CONFIRMED = "stop taken, the robot ramps to a stand / 已收到停止，正在停稳 (bridge confirmed)"
-SENT = "{word} sent; asking the bridge itself / 停止已发出，正在向 bridge 核实"
+CONFIRMED = (
+    "stop taken, the robot ramps to a stand (bridge confirmed)",
+    "已收到停止，正在停稳（bridge 已确认）",
+)
+SENT = "{word} sent; asking the bridge itself", "{word} 已发出，正在向 bridge 核实"
 SAID_BY_PLANNER = (
-    "the planner says that the bridge took the {word} (not asked from here: {why})"
-    " / 规划器称 bridge 已收到停止（此处无法直接核实）"
+    "the planner says that the bridge took the {word} (not asked from here: {why})",
+    "规划器称 bridge 已收到 {word}（此处无法直接核实：{why}）",
+)
+UNCONFIRMED = (
+    (
+        "the bridge itself did not confirm the {word}. Without a bridge the drive's own "
+        "time-out stops the wheels; use the robot's stop button."
+    ),
+    "bridge 没有确认 {word}。没有 bridge 时，驱动自身的超时会让轮子停下；请按机器人上的停止按钮。",
 )
 
 
@@ -50,14 +61,15 @@ class HaltOutcome:
     text: str
 
 
-def run(settings: LaunchSettings, word: Halt = "stop") -> int:
+def run(settings: LaunchSettings, word: Halt = "stop", *, as_json: bool = False) -> int:
     """Give the order; return 0 only when each bridge has confirmed, as far as it can be asked."""
-    from pons.running import describe_robot, is_guess, robots_to_halt
+    tell = _tell_json if as_json else _tell
+    from pons.running import is_guess, robots_to_halt
 
     robots = [settings] if is_robot_named() else robots_to_halt(settings)
     if len(robots) == 1:
         outcome = _halt(robots[0], word, tells=True)
-        print(outcome.text, file=sys.stderr if outcome.status else sys.stdout)
+        tell(robots[0], word, outcome, named=False)
         return outcome.status
     orders = [_Order(robot, word) for robot in robots]
     for order in orders:
@@ -69,9 +81,30 @@ def run(settings: LaunchSettings, word: Halt = "stop") -> int:
         if order.outcome.status and guess:
             continue  # nothing of a robot is here: the others were meant
         status = max(status, order.outcome.status)
-        told = f"{describe_robot(order.robot)}: {order.outcome.text}"
-        print(told, file=sys.stderr if order.outcome.status else sys.stdout, flush=True)
+        tell(order.robot, word, order.outcome, named=True)
     return status
+
+
+def _tell(robot: LaunchSettings, word: Halt, outcome: HaltOutcome, *, named: bool) -> None:
+    from pons.running import describe_robot
+
+    head = f"{describe_robot(robot)}: " if named else ""
+    print(f"{head}{outcome.text}", file=sys.stderr if outcome.status else sys.stdout, flush=True)
+
+
+def _tell_json(robot: LaunchSettings, word: Halt, outcome: HaltOutcome, *, named: bool) -> None:
+    """Print what became of the order at one robot, an object a line."""
+    import json
+
+    told = {
+        "order": word,
+        "confirmed": outcome.status == 0,
+        "status": outcome.status,
+        "robot": robot.robot_id or None,
+        "home": str(robot.home),
+        "told": outcome.text,
+    }
+    print(json.dumps(told, ensure_ascii=False), flush=True)
 
 
 def leave(status: int) -> NoReturn:
@@ -93,23 +126,20 @@ def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> HaltOutcome:
     by_http.start()
     by_http.join(HTTP_HEAD_START_S)
     if by_http.confirmed and tells:  # loading the wire takes longer than the stop itself
-        print(SENT.format(word=word), file=sys.stderr, flush=True)
+        print(pick(*SENT).format(word=word), file=sys.stderr, flush=True)
     out_of_reach = _out_of_reach(robot) if by_http.confirmed else None
     answer = out_of_reach or _straight_to_the_bridge(robot, word)
     if not isinstance(answer, str):
         return answer
     by_http.join(HTTP_TIMEOUT_S)
     if by_http.confirmed and (out_of_reach := out_of_reach or _out_of_reach(robot)):
-        return HaltOutcome(0, SAID_BY_PLANNER.format(word=word, why=out_of_reach))
+        return HaltOutcome(0, pick(*SAID_BY_PLANNER).format(word=word, why=out_of_reach))
     planner = by_http.trouble or "no answer yet"
     if by_http.confirmed:
         planner = "it says that the bridge confirmed, and is not believed"
     return HaltOutcome(
-        EXIT_UNCONFIRMED[word],
-        f"no_bridge: the bridge itself did not confirm the {word}. "
-        "Without a bridge the drive's own time-out stops the wheels; use the robot's stop button. "
-        f"Planner: {planner}. Bridge: {answer}\n"
-        "bridge 没有确认停止。没有 bridge 时，驱动自身的超时会让轮子停下；请按机器人上的停止按钮。",
+        EXIT_UNCONFIRMED,
+        f"no_bridge: {pick(*UNCONFIRMED).format(word=word)} Planner: {planner}. Bridge: {answer}",
     )
 
 
@@ -130,7 +160,7 @@ def _straight_to_the_bridge(robot: LaunchSettings, word: Halt) -> HaltOutcome | 
 
         if word == "stop":
             stop_direct(robot)
-            return HaltOutcome(0, CONFIRMED)
+            return HaltOutcome(0, pick(*CONFIRMED))
         answer = ask_direct(robot, word)
         if answer.accepted:
             return HaltOutcome(0, f"{word}: accepted {answer.detail}".rstrip())
@@ -151,7 +181,7 @@ class _Order(threading.Thread):
     def __init__(self, robot: LaunchSettings, word: Halt) -> None:
         super().__init__(daemon=True)
         self.robot, self._word = robot, word
-        self.outcome = HaltOutcome(EXIT_UNCONFIRMED[word], "not told")
+        self.outcome = HaltOutcome(EXIT_UNCONFIRMED, "not told")
 
     def run(self) -> None:
         self.outcome = _halt(self.robot, self._word, tells=False)

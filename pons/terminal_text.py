@@ -5,6 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import Any
 
+from pons.terminal import pick, pick_of
+
 Json = dict[str, Any]
 
 FINAL_STATES = frozenset({"succeeded", "failed", "refused", "cancelled"})
@@ -80,10 +82,15 @@ def stand_in(goal: Json, language: str) -> str:
 
 
 WEAK_BRAKES = (
-    "The brakes reach less than half of what robot.toml says, so every speed is capped. Mend them, "
-    "then end `pons up` and run `pons braking forget`, or measure anew with `pons calibrate`. / "
-    "制动力不足设定的一半，速度已受限。修好后请结束 `pons up` 并运行 "
-    "`pons braking forget`，或用 `pons calibrate` 重新标定。"
+    (
+        "The brakes reach less than half of what robot.toml says, so every speed is capped. Mend "
+        "them, then end `pons up` and run `pons braking forget`, or measure again by "
+        "`pons calibrate`."
+    ),
+    (
+        "制动力不足设定的一半，速度已受限。修好后请结束 `pons up` 并运行 "
+        "`pons braking forget`，或用 `pons calibrate` 重新标定。"
+    ),
 )
 
 
@@ -117,15 +124,14 @@ def _other_map(robot: Json) -> list[str]:
     theirs, ours = robot.get("localized_map"), robot.get("map_id")
     if theirs is None or theirs == ours:
         return []
-    english = (
-        f"The robot stands still: localization uses map {theirs}, the others {ours}. The map's "
-        "files were changed meanwhile: end `pons up` and start it again."
-    )
-    chinese = (
-        f"机器人停着不动：定位使用地图 {theirs}，其余进程使用 {ours}。"
-        "地图文件在运行中被更换：请结束 `pons up` 后重新启动。"
-    )
-    return [english, chinese]
+    return [
+        pick(
+            f"The robot stands still: localization uses map {theirs}, the others {ours}. The map's "
+            "files were changed meanwhile: end `pons up` and start it again.",
+            f"机器人停着不动：定位使用地图 {theirs}，其余进程使用 {ours}。"
+            "地图文件在运行中被更换：请结束 `pons up` 后重新启动。",
+        )
+    ]
 
 
 def robot_lines(robot: Json) -> list[str]:
@@ -148,13 +154,12 @@ def robot_lines(robot: Json) -> list[str]:
         f"limit {limits['v_mps']:.2f} m/s by {limits['by']}",
         braking_line(status["braking"]),
     ]
-    without_pose = WITHOUT_POSE.get(robot.get("localizer") or "", ())
+    without_pose = WITHOUT_POSE.get(robot.get("localizer") or "", ("", ""))
     trouble = robot.get("localizer_trouble")
-    if trouble is not None:
-        without_pose = (trouble["message"]["en"], trouble["message"]["zh"])
-    lines = [*_other_map(robot), *without_pose, *lines]
+    told = pick(*without_pose) if trouble is None else pick_of(trouble["message"])
+    lines = [*_other_map(robot), *filter(None, [told]), *lines]
     if limits["by"] == "weak_brakes":
-        lines.append(WEAK_BRAKES)
+        lines.append(pick(*WEAK_BRAKES))
     lines += _trouble(status)
     lines += [f"row {row['row']} {row['action']}: {row['evidence']}" for row in status["rows"]]
     return lines

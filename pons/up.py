@@ -14,20 +14,27 @@ import sys
 import threading
 import time
 from math import inf
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pons.children import can_set_up, children, must_set_up, set_up_children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
+from pons.key import offer_key
 from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
-from pons.launch_words import SEARCHES, SET_UP, UNREACHED, chinese_line, what_to_try
+from pons.launch_words import (
+    SEARCHES,
+    SET_UP,
+    UNREACHED,
+    brain_example,
+    chinese_line,
+    what_to_try,
+)
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
 from pons.running import RunningNote
 from pons.supervisor import REFUSED_TO_START
-from pons_assets import ROOT
+from pons.terminal import pick
 from wire import EXIT_SET_UP, ConfigError, RobotDescription
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
@@ -70,6 +77,7 @@ class Supervisor:
     ) -> None:
         self._is_patient = came_from_setup or set_up or _is_of_ros2(settings, robot)
         """The page is all that this person has: it is not taken away for being slow."""
+        self._told_up: set[str] = set()
         self._said_late = self._said_search = self._said_unreached = False
         self.changes = False
         """Whether the run ended because a person asked for set-up, or to leave it."""
@@ -135,6 +143,9 @@ class Supervisor:
         self._note.keep()
         for child in self._children:
             child.bound_log()
+            if child.name not in self._told_up and self._sockets.is_kept(child.name):
+                self._told_up.add(child.name)  # of its first start alone: later ones are told above
+                say(f"  {child.name} is up")
             if child.process is not None:
                 for path in self._sockets.look_after(child.name):
                     say(f"{path} was removed, and is there again")
@@ -155,7 +166,7 @@ class Supervisor:
             self._searched_s = now_s
             if now_s - self._searches_since_s > SEARCH_TOLD_S and not self._said_search:
                 self._said_search = True
-                say(f"{self._settings.url}\n{SEARCHES}")
+                say(f"{self._settings.url}\n{pick(*SEARCHES)}")
             return
         if now_s - max(began_s, self._searched_s) > READY_LIMIT_S:
             text = (
@@ -176,14 +187,15 @@ class Supervisor:
         if _NO_ROS2 in newest:
             self._said_unreached = True
             cause = newest[newest.index(_NO_ROS2) :]
-            say(f"{self._settings.url}\nrobot_unreached: {cause}\n  {UNREACHED}")
+            say(f"{self._settings.url}\nrobot_unreached: {cause}\n  {pick(*UNREACHED)}")
 
     def _say_ready(self, after_s: float) -> None:
         if self._planner:
             say(f"ready after {after_s:.1f} s: {self._settings.url}")
             for line in self._trust:
                 say(line)
-            say(SET_UP if self._set_up else what_to_try(self._settings))
+            metal = not self._robot.drive.virtual
+            say(pick(*SET_UP) if self._set_up else what_to_try(self._settings, arms=metal))
         else:
             socket_path = Endpoints(self._settings.home).socket(BRIDGE_DOOR)
             say(f"ready after {after_s:.1f} s, without a planner: {socket_path}")
@@ -199,6 +211,8 @@ class Supervisor:
         if self._armed:
             return True
         if not self._planner:
+            from pons.bridge_client import arm_direct
+
             self._armed = arm_direct(self._settings)
             return self._armed
         try:
@@ -229,24 +243,6 @@ def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:
     return drive.kind if drive.port is None else f"{drive.kind} at {drive.port}"
 
 
-def brain_example(home: Path, root: Path = ROOT) -> str:
-    """Return a command to try on a robot that has no planner; a wheel brings no examples."""
-    example = root / "examples" / "external_brain.py"
-    if example.is_file():
-        return f"python {example} --home {home}"
-    return f"a brain of your own with --home {home}, as examples/external_brain.py of a checkout is"
-
-
-def arm_direct(settings: LaunchSettings) -> bool:
-    """Arm at the bridge itself; tell whether it is armed."""
-    from pons.bridge_client import NoBridge, ask_direct
-
-    try:
-        return ask_direct(settings, "arm").accepted
-    except NoBridge:
-        return False
-
-
 def describe(status: int) -> str:
     """Say how a process ended."""
     return f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
@@ -263,6 +259,8 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
     try:
         robot = check(settings)
         with HomeLock(settings.home):
+            if not robot.drive.virtual:
+                offer_key(settings)
             if planner:
                 check_port(settings)
             if settings.domain is not None:

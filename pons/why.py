@@ -5,13 +5,16 @@ Which row or order it was, the evidence, what came of it, and what a person can 
 
 from __future__ import annotations
 
+import json
 import sys
 import time
-from typing import TYPE_CHECKING
+from dataclasses import asdict, replace
+from typing import TYPE_CHECKING, Any
 
 from bridge.core.faults.code_messages import GATES
 from bridge.stop_report import BadRecording, last_stop
 from pons.code_messages import sentence
+from pons.terminal import pick
 from wire import RELAYED, UNREADABLE, Mode
 
 if TYPE_CHECKING:
@@ -51,7 +54,7 @@ _CUT = (
 )
 
 
-def run(settings: LaunchSettings) -> int:
+def run(settings: LaunchSettings, *, as_json: bool = False) -> int:
     """Explain; 0 told, 1 no recording shows a stop, 2 a recording can't be read."""
     folder = settings.home / "recordings"
     try:
@@ -62,9 +65,30 @@ def run(settings: LaunchSettings) -> int:
     if stop is None:
         print(f"no_stop: no recording in {folder} shows a robot that was ready and stopped")
         return EXIT_NO_STOP
+    if as_json:
+        print(json.dumps(_content(stop), ensure_ascii=False, indent=1))
+        return EXIT_TOLD
     for name, text in _lines(stop):
         print(f"{name:<9} {text}")
     return EXIT_TOLD
+
+
+def _content(stop: StopReport) -> dict[str, Any]:
+    """Return the report as JSON holds it, with the sentences of both languages."""
+    fields = asdict(replace(stop, rows=(), held=None))
+    fields["held"] = None if stop.held is None else stop.held.model_dump(mode="json")
+    fields["path"] = str(stop.path)
+    fields["rows"] = [
+        {"row": stage.name, "action": stage.action.value, "evidence": evidence}
+        for stage, evidence in stop.rows
+    ]
+    keys = ("after_s", "code", "detail")
+    fields["events"] = [dict(zip(keys, event, strict=True)) for event in stop.events]
+    pairs = {"why": sentence(stop.cause), "to_do": _to_do(stop)}
+    told = {
+        name: dict(zip(("en", "zh"), pair, strict=True)) for name, pair in pairs.items() if pair
+    }
+    return {**fields, **told}
 
 
 def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
@@ -73,7 +97,7 @@ def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
     yield "stop", f"{stop.before.value} -> {stop.after.value}, by {stop.cause}"
     yield from _words("why", stop.cause)
     if stop.ordered_by is not None:
-        yield from _both_languages("who", _name_sources(stop.ordered_by))
+        yield "who", pick(*_name_sources(stop.ordered_by))
     for stage, evidence in stop.rows:
         yield "evidence", f"{stage.name} ({stage.action.value}): {evidence}"
     yield "motion", _motion(stop)
@@ -81,14 +105,14 @@ def _lines(stop: StopReport) -> Iterator[tuple[str, str]]:
         yield from _words("fault", stop.fault)
     held = f", held: {stop.held.reason.value} {stop.held.id}" if stop.held is not None else ""
     yield "then", f"{stop.ended.value}{held}"
-    yield from _both_languages("to do", _to_do(stop))
+    yield "to do", pick(*_to_do(stop))
     for passed_s, code, detail in stop.events[:_SHOWN]:
         yield f"+{passed_s:.2f} s", f"{code} {detail}"
     if len(stop.events) > _SHOWN:
         yield "", f"and {len(stop.events) - _SHOWN} more"
     yield "record", str(stop.path)
     if not stop.whole:
-        yield from _both_languages("", _GROWING if stop.growing else _CUT)
+        yield "", pick(*(_GROWING if stop.growing else _CUT))
 
 
 def _name_sources(sources: str) -> tuple[str, str]:
@@ -112,13 +136,7 @@ def _words(name: str, code: str) -> Iterator[tuple[str, str]]:
     """Yield the sentence of a row, an order, a gate or a fault."""
     words = sentence(code)
     if words is not None:
-        yield from _both_languages(name, words)
-
-
-def _both_languages(name: str, words: tuple[str, str]) -> Iterator[tuple[str, str]]:
-    """Yield English, and Chinese below it."""
-    yield name, words[0]
-    yield "", words[1]
+        yield name, pick(*words)
 
 
 def _motion(stop: StopReport) -> str:

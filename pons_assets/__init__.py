@@ -15,6 +15,10 @@ IS_INSTALLED = (_PACKAGE / "robot.toml").is_file()
 ROOT = _PACKAGE if IS_INSTALLED else _PACKAGE.parent
 ROBOT_FILE = ROOT / "robot.toml"
 """The default robot. An installed one belongs to the package: copy it before changing it."""
+ROBOTS = ROOT / "robots"
+"""A robot.toml for each base that a drive speaks to."""
+COMMIT_FILE = _PACKAGE / "commit"
+"""The commit that a wheel was built from, where the builder knew it."""
 SITES = ROOT / "sites"
 DEFAULT_SITE = SITES / "home"
 PROMPTS = ROOT / "prompts"

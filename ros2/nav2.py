@@ -73,7 +73,12 @@ class Nav2Node:
 def main(arguments: list[str] | None = None) -> int:
     """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
-    parser = argparse.ArgumentParser(prog="python -m ros2.nav2", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="pons nav2",
+        description="Let Nav2 drive through the bridge, in the planner's place "
+        "(`pons up --no-planner`). Stops and limits stay the bridge's.",
+        epilog="example: pons nav2",
+    )
     parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")
     try:

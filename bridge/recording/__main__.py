@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 import select
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -18,8 +19,10 @@ from pathlib import Path
 from bridge.recording.foxglove_messages import UnixClock
 from bridge.recording.pipe_frames import BadFrame, Splitter
 from bridge.recording.writer import Writer
+from processes.parent_death import child_command
 from processes.priority import add_nice
 
+_ROOT = Path(__file__).resolve().parents[2]
 BEAT_S = 0.5
 SYNC_S = 2.0
 NICE = 5
@@ -62,6 +65,25 @@ def _say(words_fd: int, word: bytes) -> None:
         return
 
 
+class ThinnerStart:
+    """Start the process that thins finished recordings out; it dies with this one."""
+
+    def __init__(self, arguments: list[str]) -> None:
+        self._command = child_command("bridge.recording.thinning", *arguments)
+        self._running: subprocess.Popen[bytes] | None = None
+
+    def start(self) -> None:
+        """Start it, unless the last one is still at it; without one the oldest files go as ever."""
+        if self._running is not None and self._running.poll() is None:
+            return
+        try:
+            self._running = subprocess.Popen(
+                self._command, cwd=_ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL
+            )
+        except OSError as error:
+            print(f"thinner_not_started: {error}", file=sys.stderr, flush=True)
+
+
 def be_humble() -> None:
     """Leave the loop's CPU and priority to the loop, and death to the end of the pipe."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -78,7 +100,9 @@ def main(arguments: list[str]) -> int:
     folder, boot, rotate_bytes, cap_bytes, offset_s = arguments
     os.set_blocking(1, False)
     clock = UnixClock(float(offset_s))
-    writer = Writer(Path(folder), boot, int(rotate_bytes), int(cap_bytes), clock)
+    thinner = ThinnerStart([folder, boot, cap_bytes, rotate_bytes])
+    sizes = int(rotate_bytes), int(cap_bytes)
+    writer = Writer(Path(folder), boot, *sizes, clock, on_new_file=thinner.start)
     try:
         pump(0, 1, writer)
     except BadFrame as error:

@@ -16,13 +16,15 @@ from typing import IO, TYPE_CHECKING
 
 import zstandard
 
+from bridge.recording.topics import RecordedTopic
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
 MAGIC = b"\x89MCAP0\r\n"
 _GZIP = b"\x1f\x8b"
-_FOOTER, _CHANNEL, _MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x02, 0x04, 0x05, 0x06, 0x07
+_FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _MESSAGE_INDEX = 0x02, 0x03, 0x04, 0x05, 0x06, 0x07
 _LAST_OPCODE = 0x0F
 MOST_BYTES = 256 << 20
 """Of one chunk, unpacked: half a second of ticks is 50 kB."""
@@ -75,6 +77,8 @@ class McapReader:
         self.growing = False
         """Its writer was still at it when this was opened."""
         self._topic_of: dict[int, str] = {}
+        self._schemas: dict[int, tuple[str, str, bytes]] = {}
+        self._channels: dict[str, tuple[int, str]] = {}
         try:
             self._file = path.open("rb")
         except OSError as error:
@@ -99,6 +103,16 @@ class McapReader:
         """
         for chunk in self.chunks:
             yield from self.read(chunk)
+
+    def definitions(self) -> list[tuple[str, RecordedTopic]]:
+        """Return each topic with its schema, as the file's first chunk defines them."""
+        if self.chunks:
+            self.read(self.chunks[0])
+        return [
+            (topic, RecordedTopic(*self._schemas[schema], encoding))
+            for topic, (schema, encoding) in self._channels.items()
+            if schema in self._schemas
+        ]
 
     def read(self, chunk: Chunk) -> list[Raw]:
         """Return one chunk's messages; none where the file was cut short in it.
@@ -173,8 +187,15 @@ class McapReader:
                 start = at + _MESSAGE_HEAD.size
                 yield Raw(self._topic_of.get(channel, ""), sequence, at_ns, data[start:end])
             elif opcode == _CHANNEL:
-                (channel,) = struct.unpack_from("<H", data, at)
-                self._topic_of[channel], _ = _text(data, at + 4)
+                channel, schema = struct.unpack_from("<HH", data, at)
+                topic, after = _text(data, at + 4)
+                self._topic_of[channel] = topic
+                self._channels[topic] = schema, _text(data, after)[0]
+            elif opcode == _SCHEMA:
+                (schema,) = struct.unpack_from("<H", data, at)
+                name, after = _text(data, at + 2)
+                encoding, after = _text(data, after)
+                self._schemas[schema] = name, encoding, data[after + 4 : end]
             at = end
 
 

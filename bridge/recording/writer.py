@@ -17,7 +17,7 @@ from bridge.recording.rotation import free_bytes, next_path, prune
 from bridge.recording.topics import OF_KIND, topics
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
     from pathlib import Path
 
     from bridge.recording.topics import RecordedTopic
@@ -40,7 +40,10 @@ class Writer:
         rotate_bytes: int,
         cap_bytes: int,
         clock: foxglove_messages.UnixClock,
+        on_new_file: Callable[[], None] = lambda: None,
     ) -> None:
+        """Write into a folder; ``on_new_file`` is called when one was begun."""
+        self._on_new_file = on_new_file
         self._folder, self._boot = folder, boot
         self._rotate_bytes, self._cap_bytes = rotate_bytes, cap_bytes
         self._clock = clock
@@ -143,6 +146,7 @@ class Writer:
             self._demand_room()
             self._file = McapFile(next_path(self._folder, self._boot, unix_s), self._topics)
             self._failing = ""
+            self._on_new_file()
         except OSError as error:
             self._fail(error)
 

@@ -13,6 +13,7 @@ from planner.api import (
     fence,
     goals,
     health,
+    history,
     live_voice,
     localization,
     memory,
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
 
 _PARTS = (
     goals, voice, live_voice, operator, setup, robot, orders, places, localization, objects, memory,
-    pictures, camera, fence, people, usage, health, websocket,
+    pictures, camera, fence, people, usage, history, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from planner.budget import Usage
     from planner.memory import Recollection
     from planner.mission import Leg
+    from planner.mission.goal_history import GoalHistory
     from planner.navigation import ObstacleReport
     from planner.orders.factory import StandingOrders
     from planner.people import People
@@ -223,6 +224,9 @@ class Services(Protocol):
 
     @property
     def budget(self) -> Budget: ...
+
+    @property
+    def history(self) -> GoalHistory: ...
 
     @property
     def orders(self) -> StandingOrders: ...

@@ -17,16 +17,21 @@ Progress = dict[str, float | int | str]
 def goal_of(book: MissionState, mission: Mission) -> Goal:
     """Return a mission as a goal, with its place in the queue."""
     position = book.queue.index(mission.id) if mission.id in book.queue else None
+    now = {"plan": _plan_now(book, mission), "position": position}
+    return recorded_goal(mission).model_copy(update=now)
+
+
+def recorded_goal(mission: Mission) -> Goal:
+    """Return a goal as its record has it: no place in the queue, no progress."""
     return Goal(
         id=mission.id,
         text=mission.text,
         language=mission.language,
         state=mission.state,
         reason="held" if mission.held and mission.reason is None else mission.reason,
-        plan=_plan_now(book, mission),
+        plan=mission.plan,
         outcome=mission.outcome,
         brain=mission.brain,
-        position=position,
         created=datetime.fromtimestamp(mission.created_unix_s, UTC),
         updated=datetime.fromtimestamp(mission.updated_unix_s, UTC),
     )

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +18,7 @@ import sqlalchemy as sa
 from pydantic import ValidationError
 from sqlalchemy.dialects import postgresql, sqlite
 
+from planner.mission import goal_history
 from planner.mission.effects import Journal
 from planner.mission.journal_records import read_mission
 from planner.mission.state import MAX_ENDED, GoalKey, Mission
@@ -29,8 +31,10 @@ SCHEMA = "2"
 FORMER_SCHEMAS = frozenset({"1"})
 """Those that are read as well: a record stays as it was written until its goal changes."""
 MAX_KEYS = 10_000
-MAX_KEPT = 2_000
-"""Ended goals on disk, with all their transitions; older ones are removed, open ones never."""
+MAX_KEPT = 10_000
+"""Ended goals on disk; older ones are removed, open ones never."""
+KEPT_WHOLE = 2_000
+"""Of these, so many of the newest with all their transitions, which are most of the bytes."""
 PRUNE_EVERY, PRUNE_MOST = 100, 500
 """After so many goals that ended, so many are removed at most: the writer is not held up."""
 
@@ -91,13 +95,16 @@ class MissionJournal:
         self._queue: tuple[str, ...] | None = None  # as it is on disk; None: not known
         self._ended = 0  # since the journal was last pruned
         self._put_mission = _upsert_of(_missions, self._engine.dialect.name)
+        self._put_row = _upsert_of(goal_history.rows, self._engine.dialect.name)
         self._put_fact = _upsert_of(_facts, self._engine.dialect.name)
         self._put_key = _upsert_of(_keys, self._engine.dialect.name, _keys.c.key)
         if self._engine.dialect.name == "sqlite":
             sa.event.listen(self._engine, "connect", _sqlite_pragmas)
         try:
             _meta.create_all(self._engine)
+            goal_history.meta.create_all(self._engine)
             self._check_schema()
+            self._add_missing_rows()
         except sa.exc.SQLAlchemyError as error:
             # Operational: what the database's surroundings refuse, a damaged file is none of them.
             wrong = Unwritable if isinstance(error, sa.exc.OperationalError) else ConfigError
@@ -108,7 +115,7 @@ class MissionJournal:
     def in_home(cls, home: Path) -> MissionJournal:
         """Open the journal of a home folder."""
         home.mkdir(parents=True, exist_ok=True)
-        return cls(f"sqlite:///{home.absolute() / 'missions.db'}")
+        return cls(f"sqlite:///{home.absolute() / goal_history.FILE}")
 
     def write(self, entries: tuple[Journal, ...], keys: tuple[GoalKey, ...] = ()) -> None:
         """Write entries, in order, in one transaction; on return they are on disk."""
@@ -159,11 +166,19 @@ class MissionJournal:
         ended = sa.select(_missions.c.id).where(_missions.c.ended.is_(True))
         kept = ended.order_by(_missions.c.order.desc()).limit(MAX_KEPT)
         oldest = ended.where(_missions.c.id.not_in(kept)).order_by(_missions.c.order)
+        whole = ended.order_by(_missions.c.order.desc()).limit(KEPT_WHOLE)
+        has_more = _missions.c.id.in_(sa.select(_transitions.c.mission))
+        past = ended.where(_missions.c.id.not_in(whole), has_more).order_by(_missions.c.order)
         newest_key = sa.select(sa.func.max(_keys.c.seq)).scalar_subquery()
         try:
             with self._engine.begin() as connection:
                 gone = connection.execute(oldest.limit(PRUNE_MOST)).scalars().all()
-                connection.execute(sa.delete(_transitions).where(_transitions.c.mission.in_(gone)))
+                shortened = connection.execute(past.limit(PRUNE_MOST)).scalars().all()
+                row = _transitions.c.mission.in_([*gone, *shortened])
+                connection.execute(sa.delete(_transitions).where(row))
+                connection.execute(
+                    sa.delete(goal_history.rows).where(goal_history.rows.c.id.in_(gone))
+                )
                 connection.execute(sa.delete(_missions).where(_missions.c.id.in_(gone)))
                 connection.execute(sa.delete(_keys).where(_keys.c.seq <= newest_key - MAX_KEYS))
         except sa.exc.SQLAlchemyError as error:
@@ -184,8 +199,18 @@ class MissionJournal:
             ended = mission.state in ENDED
             newest = {"id": mission.id, "order": mission.order, "ended": ended, "record": record}
             self._put_mission(connection, newest)
+            self._put_row(connection, goal_history.row_of(mission))
         if entry.queue != before:
             self._put_fact(connection, {"name": "queue", "value": json.dumps(entry.queue)})
+
+    def _add_missing_rows(self) -> None:
+        """Make the rows of goals that a former program wrote, once."""
+        listed = sa.select(goal_history.rows.c.id)
+        with self._engine.begin() as connection:
+            missing = sa.select(_missions.c.record).where(_missions.c.id.not_in(listed))
+            for record in connection.execute(missing).scalars().all():
+                with suppress(ValidationError):  # what is malformed is told by load
+                    self._put_row(connection, goal_history.row_of(read_mission(record)))
 
     def _mission(self, record: str) -> Mission:
         try:

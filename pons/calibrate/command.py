@@ -17,8 +17,9 @@ from pons.calibrate.procedure import CalibrationPlan, calibrate
 from pons.calibrate.reference import MEASURED
 from pons.calibrate.robot_toml import difference, edit_values, replace
 from pons.calibrate.session import CalibrationRig
-from pons.launch_words import chinese_cure
-from pons_assets import IS_INSTALLED, ROBOT_FILE
+from pons.launch_words import chinese_line
+from pons.robot.presets import is_shipped
+from pons.terminal import pick
 from wire import ConfigError, load_robot
 from wire.keys import Party
 from wire.session import open_session
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 EXIT_DONE, EXIT_REFUSED, EXIT_INTERRUPTED = 0, 3, 130
 PUMP_S = 0.004
+NOTHING = "nothing was written", "未写入任何内容"
 
 
 def run(
@@ -47,8 +49,9 @@ def run(
     """Calibrate; 0 written or nothing to change, 3 refused, 130 interrupted."""
     signal.signal(signal.SIGTERM, _interrupt)
     try:
-        if IS_INSTALLED and settings.robot == ROBOT_FILE:
-            raise CalibrationRefusal("shipped_robot_toml", f"cp {ROBOT_FILE} robot.toml")
+        if is_shipped(settings.robot):
+            made = f"pons robot new NAME --from {settings.robot.stem}"
+            raise CalibrationRefusal("shipped_robot_toml", made)
         text = settings.robot.read_text("utf-8") if settings.robot.is_file() else ""
         stamp = time.gmtime()
         kind = MEASURED if measured_m is not None else reference
@@ -60,11 +63,13 @@ def run(
         print("\n".join(refused.lines()), file=sys.stderr)
         return EXIT_REFUSED
     except (ConfigError, OSError) as trouble:
-        cure = chinese_cure(str(trouble))
-        print("\n".join(filter(None, (str(trouble), cure, "nothing was written"))), file=sys.stderr)
+        print(f"{trouble}{chinese_line(str(trouble))}\n{pick(*NOTHING)}", file=sys.stderr)
         return EXIT_REFUSED
     except KeyboardInterrupt:
-        print("interrupted / 已中断: the robot stands, nothing was written", file=sys.stderr)
+        print(
+            f"{pick('interrupted: the robot stands', '已中断：机器人已停')}; {pick(*NOTHING)}",
+            file=sys.stderr,
+        )
         return EXIT_INTERRUPTED
 
 

@@ -1,8 +1,9 @@
-"""Name why a calibration ends without a result: a stable code, English and Chinese, the remedy."""
+"""Name why a calibration ends without a result: a stable code, the remedy."""
 
 from __future__ import annotations
 
 from pons.command_words import load_words
+from pons.terminal import pick
 
 WORDS = load_words("pons.calibrate")["refusals"]
 
@@ -17,9 +18,8 @@ class CalibrationRefusal(Exception):
 
     def lines(self) -> list[str]:
         """Return the text for a person."""
-        english, chinese = WORDS[self.code]
         head = f"{self.code}: {self.detail}" if self.detail else self.code
-        return [head, f"  {english}", f"  {chinese}"]
+        return [head, f"  {pick(*WORDS[self.code])}"]
 
 
 class RunLost(Exception):

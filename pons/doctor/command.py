@@ -24,6 +24,7 @@ from pons.doctor import (
 )
 from pons.doctor import jitter as late
 from pons.doctor.finding import BilingualWords, HealthFinding, HealthVerdict, fail, warn
+from pons.terminal import paint, pick
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -31,14 +32,18 @@ if TYPE_CHECKING:
 EXIT = {HealthVerdict.OK: 0, HealthVerdict.WARN: 1, HealthVerdict.FAIL: 2}
 """0: all is well; 1: something works less well; 2: something must be mended first."""
 NO_CYCLICTEST = (
-    "cyclictest did not run beside it -> sudo apt install rt-tests; it needs the same rights\n"
-    "cyclictest 未能同时运行 -> sudo apt install rt-tests；需要同样的权限"
+    "cyclictest did not run beside it -> sudo apt install rt-tests; it needs the same rights",
+    "cyclictest 未能同时运行 -> sudo apt install rt-tests；需要同样的权限",
 )
 UNREAD = (
     BilingualWords("not looked at: robot.toml can't be read", "未检查：无法读取 robot.toml"),
     BilingualWords("mend it first (line robot)", "请先修正它（见 robot 一行）"),
 )
-MARKS = {HealthVerdict.OK: "ok  ", HealthVerdict.WARN: "warn", HealthVerdict.FAIL: "FAIL"}
+MARKS = {
+    HealthVerdict.OK: ("ok  ", "green"),
+    HealthVerdict.WARN: ("warn", "yellow"),
+    HealthVerdict.FAIL: ("FAIL", "red"),
+}
 
 
 def run(settings: LaunchSettings, *, as_json: bool = False, jitter: bool = False) -> int:
@@ -57,7 +62,7 @@ def run(settings: LaunchSettings, *, as_json: bool = False, jitter: bool = False
         if jitter:
             print(f"\n{late.table(rows)}")
             if len(rows) < 2:
-                print(NO_CYCLICTEST)
+                print(pick(*NO_CYCLICTEST))
     return max(EXIT[one.verdict] for one in found)
 
 
@@ -120,9 +125,7 @@ def run_check(name: str, check: Callable[[], HealthFinding]) -> HealthFinding:
 
 
 def lines(one: HealthFinding) -> list[str]:
-    """Return a finding for a terminal: one line, with its fix; a fault in both languages."""
-    shown = [f"{MARKS[one.verdict]}  {one.name:<14} {one.found.en}"]
-    if one.fix is not None:
-        shown[0] += f" -> {one.fix.en}"
-        shown.append(f"      {'':<14} {one.found.zh} -> {one.fix.zh}")
-    return shown
+    """Return a finding for a terminal: one line, with its fix."""
+    mark, colour = MARKS[one.verdict]
+    fix = "" if one.fix is None else f" -> {pick(one.fix.en, one.fix.zh)}"
+    return [f"{paint(mark, colour)}  {one.name:<14} {pick(one.found.en, one.found.zh)}{fix}"]

@@ -17,6 +17,7 @@ from pons.evals.report import as_json, content, has_passed, table
 from pons.evals.score import SentenceVerdict, score_each
 from pons.evals.suites import HOME_SITE, MissingSuite, Suite, load, suite_names
 from pons.launch_words import chinese_line
+from pons.terminal import below
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
     try:
         return score_and_show(settings, load(said.suite, said.site), said)
     except (MissingSuite, BadMatcher, SiteError) as wrong:
-        print(f"pons eval: {wrong}\n  {_in_chinese(wrong)}", file=sys.stderr)
+        print(f"pons eval: {wrong}{below('', {'zh': _in_chinese(wrong)})}", file=sys.stderr)
         return REFUSED
     except ConfigError as wrong:
         print(f"pons eval: {wrong}{chinese_line(str(wrong))}", file=sys.stderr)
@@ -94,6 +95,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="pons eval",
         description="Score what a brain plans. Exit status: 0 goal reached, 1 not, 2 not asked.",
+        epilog="Examples: pons eval --quick; pons eval replies --model qwen3:8b",
     )
     parser.add_argument(
         "suite",

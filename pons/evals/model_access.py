@@ -32,6 +32,7 @@ from planner.settings import (
     place_of,
     same_place,
 )
+from pons.terminal import pick
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -127,9 +128,9 @@ def agree_on(bill: str, *, yes: bool) -> bool:
     if yes:
         return True
     if not sys.stdin.isatty():  # silence is not consent
-        print("not_agreed: give --yes / 请加 --yes", file=sys.stderr)
+        print(f"not_agreed: {pick('give --yes', '请加 --yes')}", file=sys.stderr)
         return False
-    return input("Go on? 继续吗？ [y/N] ").strip().lower() in ("y", "yes", "是")
+    return input(f"{pick('Go on?', '继续吗？')} [y/N] ").strip().lower() in ("y", "yes", "是")
 
 
 @contextmanager

@@ -60,7 +60,8 @@ def _grammar() -> argparse.ArgumentParser:
     grammar = argparse.ArgumentParser(
         prog="pons mock-llm",
         description="Serve the offline brain over the OpenAI protocol, with faults on demand.",
-        epilog='While it runs, POST /mock {"fault": "hang", "times": 1} changes it.',
+        epilog="Example: pons mock-llm --port 8421. "
+        'While it runs, POST /mock {"fault": "hang", "times": 1} changes it.',
     )
     option = grammar.add_argument
     option("--host", default="127.0.0.1")

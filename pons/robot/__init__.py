@@ -1,5 +1,5 @@
-"""Find out what a robot is made of: ``pons robot find``."""
+"""Choose a preset, find out what a robot is made of, try it: ``pons robot``."""
 
-from pons.robot.command import run
+from pons.robot.command import parser, run
 
-__all__ = ["run"]
+__all__ = ["parser", "run"]

@@ -1,6 +1,6 @@
 """Name every serial port, what answers on it, and every camera; print a part of robot.toml.
 
-``pons robot find [--port PATH] [--json]``. Listens, and asks only what moves nothing, turns nothing
+``pons robot find [--port PATH] [--json]`` listens, and asks only what moves nothing, turns nothing
 and changes no setting. Needs no running robot; a port that a running one holds is named busy.
 ``pons robot try [--robot FILE]`` turns the wheels, off the ground (docs/robot-try.md).
 ``pons robot node FOLDER`` writes the package that a robot of ROS 2 runs, ``pons robot mount``
@@ -19,8 +19,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 from devices.camera_listing import list_cameras
 from devices.port_listing import describe_port, find_port_takers, list_ports
+from pons.command_parser import CommandParser
 from pons.command_words import load_words
 from pons.robot.port_finder import question_ports
+from pons.settings import robot_of
+from pons.terminal import pick
 from pons_assets import ROS2_NODE
 from wire import load_robot
 
@@ -32,15 +35,17 @@ if TYPE_CHECKING:
     from pons.robot.port_finder import PortFinding
     from pons.settings import LaunchSettings
 
-EXIT_FOUND, EXIT_NOTHING = 0, 3
+EXIT_FOUND, EXIT_NOTHING, EXIT_REFUSED = 0, 1, 3
 ZENOH: Final = "eclipse-zenoh>=1.10,<1.11"
 HEAD: Final = "# for robot.toml:"
 CODES: Final = load_words("pons.robot")["ports"]
 """What is said of a port, in English and Chinese; ``detail`` is the finding's."""
 RELAY_GONE: Final = (
-    "relay_gone: it is a part of the package pons_ros2 now: `pons robot node FOLDER` writes that "
-    "(docs/ros2.md)\n"
-    "中继节点现在是 pons_ros2 软件包的一部分：请用 `pons robot node FOLDER` 写出（docs/ros2.md）"
+    (
+        "relay_gone: it is a part of pons_ros2 now: `pons robot node FOLDER` writes that "
+        "(docs/ros2.md)"
+    ),
+    "relay_gone: 中继节点现在是 pons_ros2 软件包的一部分：请用 `pons robot node FOLDER` 写出",
 )
 _TAKERS: Final = {
     "brltty": "port_brltty",
@@ -55,49 +60,75 @@ _FORBIDDEN_TO_ALL: Final = (
 
 def parser() -> argparse.ArgumentParser:
     """Return the grammar of ``pons robot``."""
-    top = argparse.ArgumentParser(prog="pons robot", description=__doc__)
-    acts = top.add_subparsers(dest="act", required=True, metavar="ACT")
-    find = acts.add_parser("find", help="name each serial port and what answers on it")
+    top = CommandParser(
+        prog="pons robot",
+        description="Choose a preset for your robot, find what is plugged in, try it with its "
+        "wheels off the ground.",
+        examples=["pons robot presets", "pons robot new rover --from waveshare_ugv_rover",
+                  "pons robot find", "pons robot try"],
+    )  # fmt: skip
+    acts = top.add_subparsers(dest="act", required=True, metavar="ACT", parser_class=CommandParser)
+
+    def act(name: str, what: str, example: str) -> CommandParser:
+        return acts.add_parser(name, help=what, description=what, examples=[example])
+
+    listed = act("presets", "list the robots that come with Pons", "pons robot presets --json")
+    listed.add_argument("--json", action="store_true", help="as JSON")
+    what = "write a preset down as this home's robot.toml, used by default from then on"
+    made = act("new", what, "pons robot new rover --from waveshare_ugv_rover")
+    made.add_argument("name", metavar="NAME", help="the robot's id: small letters, digits, _ and -")
+    made.add_argument("--from", dest="preset", required=True, metavar="PRESET",
+                      help="as `pons robot presets` lists it")  # fmt: skip
+    what = "name each serial port and what answers on it, moving nothing"
+    find = act("find", what, "pons robot find --port /dev/ttyUSB0")
     find.add_argument(
         "--port", type=Path, action="append", metavar="PATH", help="this one alone, or several"
     )
-    find.add_argument("--json", action="store_true")
-    tried = acts.add_parser("try", help="turn the wheels, off the ground, and prove that they stop")
-    tried.add_argument("--robot", type=Path, metavar="FILE", help="robot.toml (PONS_ROBOT)")
-    node = acts.add_parser(
-        "node", help="write the ROS 2 package that a robot runs into a new folder"
-    )
+    find.add_argument("--json", action="store_true", help="as JSON")
+    what = "turn the wheels, off the ground, and prove that they stop"
+    tried = act("try", what, "pons robot try --robot robot.toml")
+    what = "write the ROS 2 package that a robot runs into a new folder"
+    node = act("node", what, "pons robot node ~/ros2_ws/src/pons_ros2")
     node.add_argument("folder", type=Path, metavar="FOLDER", help="~/ros2_ws/src/pons_ros2")
-    acts.add_parser("mount", help="print where a ROS 2 robot's lidar sits, by its /tf_static")
+    what = "print where a ROS 2 robot's lidar sits, by its /tf_static"
+    for of_robot in (tried, act("mount", what, "pons robot mount --robot ros2_diff_drive")):
+        of_robot.add_argument(
+            "--robot", type=Path, metavar="FILE", help="robot.toml, or a preset's name (PONS_ROBOT)"
+        )
     return top
 
 
 def _write_node(folder: Path) -> int:
-    """Copy the package; 3 where the folder is there already or can't be written."""
+    """Copy the package; refuse where the folder is there already or can't be written."""
     try:
         copytree(ROS2_NODE, folder, ignore=ignore_patterns("__pycache__"))
     except OSError as error:
-        print(
-            f"node_not_written: {folder}: {error.strerror or error}; name a new folder",
-            file=sys.stderr,
-        )
-        print(f"无法写入 {folder}：请指定一个尚不存在的文件夹", file=sys.stderr)
-        return EXIT_NOTHING
+        cure = pick("name a new folder", "请指定一个尚不存在的文件夹")
+        print(f"node_not_written: {folder}: {error.strerror or error}; {cure}", file=sys.stderr)
+        return EXIT_REFUSED
     print(f"{folder}: on the robot there `colcon build`, `pip install '{ZENOH}'`, and")
     print("ros2 launch pons_ros2 pons.launch.py (docs/ros2.md)")
     return EXIT_FOUND
 
 
 def run(settings: LaunchSettings, words: list[str]) -> int:
-    """Be ``pons robot``; 0 where a device was recognised or all was proved, 3 where not."""
+    """Be ``pons robot``; 0 where a device was recognised or all was proved, 1 where none was."""
     if words[:1] == ["relay"]:
-        print(RELAY_GONE, file=sys.stderr)
-        return EXIT_NOTHING
+        print(pick(*RELAY_GONE), file=sys.stderr)
+        return EXIT_REFUSED
     said = parser().parse_args(words)
+    if said.act in ("presets", "new"):
+        from pons.robot import presets
+
+        if said.act == "presets":
+            return presets.list_presets(as_json=said.json)
+        return presets.write_new(settings, said.name, said.preset)
+    if said.act in ("try", "mount") and said.robot is not None:
+        settings = replace(settings, robot=robot_of(str(said.robot), settings.home))
     if said.act == "try":
         from pons.robot.trial_command import run_trial
 
-        return run_trial(replace(settings, robot=said.robot) if said.robot else settings)
+        return run_trial(settings)
     if said.act == "node":
         return _write_node(said.folder)
     if said.act == "mount":
@@ -206,9 +237,7 @@ def describe_code(code: str, detail: str) -> tuple[str, str]:
 
 
 def _explain(code: str, detail: str = "") -> Iterator[str]:
-    english, chinese = describe_code(code, detail)
-    yield f"  {code}: {english}"
-    yield f"  {chinese}"
+    yield f"  {code}: {pick(*describe_code(code, detail))}"
 
 
 def adapter_words(entry: SerialPortEntry) -> str:

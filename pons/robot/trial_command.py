@@ -15,6 +15,7 @@ from pons.calibrate.errors import CalibrationRefusal
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_run import load_triable, refusal_of, require_base, try_robot, wait_for
 from pons.robot.trial_words import PROMPTS, REFUSALS, STEPS
+from pons.terminal import pick
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -45,7 +46,8 @@ def run_trial(settings: LaunchSettings) -> int:
         print("\n".join(refusal_lines(refusal_of(trouble))), file=sys.stderr)
         return EXIT_REFUSED
     except KeyboardInterrupt:
-        print("interrupted / 已中断: the wheels stand, nothing was written", file=sys.stderr)
+        told = pick("interrupted: the wheels stand, nothing was written", "已中断：轮子已停")
+        print(told, file=sys.stderr)
         return EXIT_INTERRUPTED
     kept = result.kept.name
     print(f"proved; wrote [trial] into {settings.robot}, the old one is {kept}", flush=True)
@@ -53,10 +55,10 @@ def run_trial(settings: LaunchSettings) -> int:
 
 
 def refusal_lines(refused: TrialRefusal) -> list[str]:
-    """Return what a person is told of a refusal: code, what came, and the cure in two languages."""
-    english, chinese = REFUSALS[refused.code]
+    """Return what a person is told of a refusal: code, what came, and the cure."""
     detail = f" ({refused.detail})" if refused.detail else ""
-    return [f"{refused.code}{detail}", f"  {english}", f"  {chinese}", "nothing was written"]
+    nothing = pick("nothing was written", "未写入任何内容")
+    return [f"{refused.code}{detail}", f"  {pick(*REFUSALS[refused.code])}", nothing]
 
 
 class TerminalPerson:
@@ -69,8 +71,7 @@ class TerminalPerson:
     def ask(self, code: str) -> None:
         """Print what is asked for."""
         ends = _LIFTED if code == LIFT else _DONE
-        english, chinese = (f"{said}{end}" for said, end in zip(PROMPTS[code], ends, strict=True))
-        print(f"\n{english}\n{chinese} … ", end="", flush=True)
+        print(f"\n{pick(*PROMPTS[code])}{pick(*ends)} … ", end="", flush=True)
 
     def has_answered(self) -> bool:
         """Tell whether Enter was pressed; an end of input is an interrupt: nobody watches."""
@@ -84,7 +85,7 @@ class TerminalPerson:
     def tell(self, step: str, seen: str = "") -> None:
         """Print what the step that has ended saw."""
         if seen:
-            print(f"{' / '.join(STEPS[self._step])}: {seen}", flush=True)
+            print(f"{pick(*STEPS[self._step])}: {seen}", flush=True)
         self._step = step
 
     def require_watch(self) -> None:

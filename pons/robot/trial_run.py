@@ -20,9 +20,9 @@ from pons.calibrate.robot_toml import replace
 from pons.robot.gyro_trial import BaseGyroSource, I2cGyroSource, try_gyro
 from pons.robot.lidar_trial import try_lidar
 from pons.robot.port_finder import CHATTER_BYTES, name_speaker
+from pons.robot.presets import is_shipped
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.wheel_trial import WheelTrial
-from pons_assets import IS_INSTALLED, ROBOT_FILE
 from sensors.lidar.kinds import kind_of
 from sensors.lidar.reader import LidarReader
 from wire import ConfigError, load_robot
@@ -84,8 +84,8 @@ def load_triable(path: Path) -> RobotDescription:
         TrialRefusal: ``trial_shipped``, ``trial_virtual`` or ``trial_ros2``.
         ConfigError: robot.toml can't be used.
     """
-    if IS_INSTALLED and path == ROBOT_FILE:
-        raise TrialRefusal("trial_shipped", f"cp {ROBOT_FILE} robot.toml")
+    if is_shipped(path):
+        raise TrialRefusal("trial_shipped", f"pons robot new NAME --from {path.stem}")
     robot = load_robot(path)
     if robot.drive.virtual:
         stated = "is" if "kind" in robot.drive.model_fields_set else "is left out, and so"

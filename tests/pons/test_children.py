@@ -10,9 +10,9 @@ import pytest
 
 from pons.children import children
 from pons.launch_checks import CannotStart, check
+from pons.launch_words import brain_example
 from pons.settings import CHECKOUT, LaunchSettings
 from pons.supervisor import REFUSED_TO_START
-from pons.up import brain_example
 from wire import RobotDescription
 
 ROBOT = ["sim", "localization", "bridge", "planner"]

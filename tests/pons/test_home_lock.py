@@ -68,7 +68,7 @@ def test_pons_up_in_a_home_that_it_may_not_write_says_so_in_a_line_of_each_langu
         done = subprocess.run(
             [sys.executable, "-m", "tests.as_user", "61001", "61001", "pons.__main__", "up"],
             cwd=ROOT, capture_output=True, text=True, check=False, timeout=60,
-            env={**os.environ, "PONS_HOME": folder, "PONS_PORT": "1"},
+            env={**os.environ, "PONS_HOME": folder, "PONS_PORT": "1", "LC_ALL": "zh_CN.UTF-8"},
         )  # fmt: skip
     assert done.returncode == 2, done
     assert done.stderr.startswith("pons up: home_unwritable: ")

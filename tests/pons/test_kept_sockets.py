@@ -47,6 +47,7 @@ def test_a_removed_socket_is_brought_back_and_reaches_its_listener(home: Path) -
     path = Endpoints(home).socket(BRIDGE_DOOR)
     kept = KeptSockets(home)
     with closing(listening(path)) as bridge:
+        assert not kept.is_kept("bridge")
         assert kept.look_after("bridge") == []
         for _ in range(3):
             path.unlink()

@@ -21,9 +21,11 @@ def refused(kind: OpKind, code: str, detail: str) -> list[str]:
     ],
 )
 def test_a_refusal_says_what_came_and_why_in_both_languages(
-    kind: OpKind, code: str, detail: str, said: str
+    kind: OpKind, code: str, detail: str, said: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     lines = refused(kind, code, detail)
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    lines += refused(kind, code, detail)[1:]
     assert lines[0] == f"{kind}: refused, {code}: {detail}"
     why = "\n".join(lines[1:])
     assert said in why

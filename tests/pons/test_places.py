@@ -100,6 +100,7 @@ def test_what_went_wrong_is_said(
     said: str,
 ) -> None:
     monkeypatch.setattr(places, "call", Planner(failure))
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
     assert places.run(load(), "remember", "corner") == status
     assert said in capsys.readouterr().err
 

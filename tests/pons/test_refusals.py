@@ -17,6 +17,7 @@ NO_PLANNER = 6
 def nowhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, free_port: int) -> None:
     """Let every command look for a robot where there is none."""
     monkeypatch.setenv("PONS_HOME", str(tmp_path / "home"))
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
     monkeypatch.setenv("PONS_PORT", str(free_port))
     monkeypatch.setattr(
         bridge_client, "LIMIT_S", 0.1

@@ -81,7 +81,7 @@ def test_where_no_goal_is_paused_the_hold_is_cleared_at_the_bridge(held: Held) -
 def test_no_other_order_is_given_a_proof(held: Held, verb: str) -> None:
     planner, settings, _ = held
     keep_key(settings)
-    assert goals.act(settings, verb, "g1") == goals.EXIT_UNREACHED
+    assert goals.act(settings, verb, "g1") == goals.EXIT["refused"]
     assert planner.heard == [(f"/v1/goals/g1/{verb}", {})]
 
 

@@ -17,6 +17,19 @@ from tests.site_sentences import english_in
 from wire import FenceFile
 
 
+def told_twice(
+    settings: LaunchSettings, words: list[str], capsys: pytest.CaptureFixture[str]
+) -> tuple[int, str, str]:
+    """Give an order that changes nothing in both languages; return its status and what it told."""
+    capsys.readouterr()
+    ended = site.run(settings, words)
+    english = capsys.readouterr().err
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("LC_ALL", "zh_CN.UTF-8")
+        assert site.run(settings, words) == ended
+    return ended, english, capsys.readouterr().err
+
+
 @pytest.fixture
 def settings(tmp_path: Path) -> LaunchSettings:
     """Return a home of its own."""
@@ -38,12 +51,11 @@ def plan(tmp_path: Path, repository: Path) -> Path:
 def test_unknown_floor_needs_a_persons_word(
     settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert site.run(settings, ["import", str(plan), "mine"]) == 3
-    said = capsys.readouterr().err
-    assert "map_unknown_word" in said
-    english, chinese = said.strip().split("\n")
+    ended, english, chinese = told_twice(settings, ["import", str(plan), "mine"], capsys)
+    assert ended == 3
+    assert "map_unknown_word" in english
     assert "--unknown unknown or --unknown free" in english
-    assert chinese.endswith("请说明是哪一种：--unknown unknown 或 --unknown free")
+    assert chinese.strip().endswith("请说明是哪一种：--unknown unknown 或 --unknown free")
     assert "which" not in chinese
     assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
     assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 3
@@ -92,8 +104,8 @@ def test_what_cannot_be_is_refused_by_name(
 ) -> None:
     image = plan.parent / "map.pgm"
     given = [word.format(plan=plan, image=image) for word in words]
-    assert site.run(settings, given) == status
-    english, chinese = capsys.readouterr().err.splitlines()
+    ended, english, chinese = told_twice(settings, given, capsys)
+    assert ended == status
     assert code in english
     assert any(ord(letter) > 0x2E80 for letter in chinese)
     assert english_in(chinese) == ""
@@ -117,8 +129,8 @@ def test_a_start_that_cannot_be_is_refused_and_leaves_nothing(
     code: str,
 ) -> None:
     words = ["import", str(plan), "mine", "--unknown", "unknown", "--start", *start]
-    assert site.run(settings, words) == 3
-    english, chinese = capsys.readouterr().err.strip().split("\n")
+    ended, english, chinese = told_twice(settings, words, capsys)
+    assert ended == 3
     assert english.startswith(f"refused: {code}: ")
     assert "起点" in chinese or "应为" in chinese
     assert not (settings.home / "sites").exists()
@@ -141,10 +153,11 @@ def test_a_site_that_would_not_load_is_not_left_behind(
     mask = plan.parent / "mask.yaml"
     mask.write_text(plan.read_text().replace("map.pgm", "closed.pgm"))
     words = ["import", str(plan), "mine", "--unknown", "unknown"]
-    assert site.run(settings, [*words, "--keepout", str(mask)]) == 3
-    said = capsys.readouterr().err
-    assert "place_outside_fence" in said
-    assert "禁入区" in said
+    asked = [*words, "--keepout", str(mask)]
+    ended, english, chinese = told_twice(settings, asked, capsys)
+    assert ended == 3
+    assert "place_outside_fence" in english
+    assert "禁入区" in chinese
     assert not list((settings.home / "sites").iterdir())
     assert site.run(settings, words) == 0
 
@@ -157,7 +170,7 @@ def test_after_an_import_with_an_error_nobody_is_told_to_drive_there(
     said = capsys.readouterr().out
     assert "error: home_tight" in said
     assert "pons up" not in said
-    assert "出发前" in said
+    assert "before you drive there" in said
 
 
 def test_what_grey_205_was_taken_for_is_told(
@@ -173,8 +186,8 @@ def test_a_room_is_not_called_by_an_order(
     settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
     assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
-    assert site.run(settings, ["name", "mine", "room_1", name]) == 3
-    english, chinese = capsys.readouterr().err.strip().split("\n")
+    ended, english, chinese = told_twice(settings, ["name", "mine", "room_1", name], capsys)
+    assert ended == 3
     assert "place_name_reserved" in english
     assert "名称" in chinese
     assert not Site.load(site_of("mine", settings.home)).rooms
@@ -187,8 +200,8 @@ def test_a_name_that_a_place_has_is_told_with_that_place(
     assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
     assert site.run(settings, ["name", "mine", "room_1", "kitchen", "--zh", "厨房"]) == 0
     before = (site_of("mine", settings.home) / "places.yaml").read_bytes()
-    assert site.run(settings, ["name", "mine", "room_1", *again]) == 3
-    english, chinese = capsys.readouterr().err.strip().split("\n")
+    ended, english, chinese = told_twice(settings, ["name", "mine", "room_1", *again], capsys)
+    assert ended == 3
     assert "place_name_taken" in english
     assert f"{again[-1]!r} is a name of 'kitchen' already" in english
     assert f"{again[-1]!r} 已是 'kitchen' 的名称" in chinese
@@ -234,8 +247,8 @@ def test_no_name_of_the_sites_that_come_along_is_reserved(name: str) -> None:
 def test_a_site_that_is_not_there_is_told_with_those_that_are(
     settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert site.run(settings, ["check", "nowhere"]) == 3
-    english, chinese = capsys.readouterr().err.strip().split("\n")
+    ended, english, chinese = told_twice(settings, ["check", "nowhere"], capsys)
+    assert ended == 3
     assert "nowhere is no site" in english
     assert "home, two_room" in english
     assert "已有站点：home, two_room" in chinese
@@ -260,10 +273,10 @@ def test_masks_of_a_site_that_exists_make_a_fence_to_propose(
     assert len(fence.keep_outs) > len(Site.load(folder).fence.record.keep_outs)
     assert "pons fence propose" in said.err
     assert (folder / "fence.json").read_bytes() == before, "nothing is in force yet"
-    assert site.run(settings, ["masks", "mine"]) == 2
-    lacking = capsys.readouterr().err
-    assert "masks_none: say --keepout MASK.yaml" in lacking
-    assert "请给出 --keepout MASK.yaml" in lacking
+    ended, english, chinese = told_twice(settings, ["masks", "mine"], capsys)
+    assert ended == 2
+    assert "masks_none: say --keepout MASK.yaml" in english
+    assert "请给出 --keepout MASK.yaml" in chinese
 
 
 def test_our_own_sites_are_well(settings: LaunchSettings) -> None:

@@ -74,7 +74,7 @@ def bridge(home: Path) -> Iterator[StandingBridge]:
 def assert_taken(done: subprocess.CompletedProcess[str], word: str) -> None:
     assert "Traceback" not in done.stderr
     assert done.returncode == 0, done.stderr
-    assert done.stdout.strip() == (CONFIRMED if word == "stop" else f"{word}: accepted")
+    assert done.stdout.strip() == (CONFIRMED[0] if word == "stop" else f"{word}: accepted")
 
 
 @pytest.mark.parametrize("word", STANDS_STILL)
@@ -183,9 +183,9 @@ def test_who_took_the_bridges_place_is_told_to_stop_but_not_believed(home: Path)
             other.terminate()
         heard, _ = other.communicate(timeout=10)
     for done in told:
-        assert done.returncode in (1, 6)
+        assert done.returncode == 6
         assert f"wrong_listener: user {IMPOSTOR} listens at " in done.stderr
-        assert CONFIRMED not in done.stdout
+        assert CONFIRMED[0] not in done.stdout
         assert "accepted" not in done.stdout
     assert heard.split() == ["cmd/stop", "op/estop", "op/disarm"], "no proof was given to it"
 
@@ -271,7 +271,7 @@ def bridge_socket(home: Path) -> Path:
 
 
 def said_by_planner(why: str) -> str:
-    return SAID_BY_PLANNER.format(word="stop", why=why)
+    return SAID_BY_PLANNER[0].format(word="stop", why=why)
 
 
 @pytest.mark.parametrize("lives", [True, False], ids=["a bridge that hangs", "a dead bridge"])
@@ -285,9 +285,9 @@ def test_a_planner_that_says_confirmed_is_not_believed_where_the_bridge_is_silen
         if lives:
             bridge.listen()
         done = pons(home, "stop", port=liar)
-    assert (done.returncode, done.stdout) == (1, "")
+    assert (done.returncode, done.stdout) == (6, "")
     sent, _, told = done.stderr.partition("\n")
-    assert sent == SENT.format(word="stop")
+    assert sent == SENT[0].format(word="stop")
     assert told.startswith("no_bridge: the bridge itself did not confirm the stop")
     assert "Planner: it says that the bridge confirmed, and is not believed. " in told
 
@@ -319,11 +319,11 @@ def test_who_may_not_ask_the_bridge_is_told_the_planners_word(
 
 def test_where_both_ways_fail_each_is_told_in_one_line(tmp_path: Path) -> None:
     done = pons(tmp_path / ("x" * 120), "stop")
-    assert done.returncode == 1
+    assert done.returncode == 6
     assert done.stderr.startswith("no_bridge: ")
     assert "Planner: http://127.0.0.1:1/v1/stop: " in done.stderr
     assert "Bridge: socket_path_too_long: " in done.stderr
-    assert done.stderr.count("\n") == 2, "a line in each language"
+    assert done.stderr.count("\n") == 1
 
 
 LIGHT = (

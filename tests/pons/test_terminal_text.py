@@ -70,11 +70,15 @@ def shown(**change: object) -> str:
     return "\n".join(robot_lines({"status": said, "room": None}))
 
 
-def test_what_is_waited_for_is_named_in_both_languages() -> None:
+def test_what_is_waited_for_is_named_in_both_languages(monkeypatch: pytest.MonkeyPatch) -> None:
     said = shown(mode="SELFTEST", waiting_for=["drive_echo", "enc_stale", "brand_new"])
     assert "waiting for: drive_echo, enc_stale, brand_new" in said
-    assert "the drive's answer / 驱动应答" in said
-    assert "The drive reports nothing; the robot stops. / 驱动没有反馈，机器人停车。" in said
+    assert "the drive's answer" in said
+    assert "The drive reports nothing; the robot stops." in said
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    said = shown(mode="SELFTEST", waiting_for=["drive_echo", "enc_stale", "brand_new"])
+    assert "驱动应答" in said
+    assert "驱动没有反馈，机器人停车。" in said
 
 
 def test_a_fault_is_told_in_both_languages_with_what_to_do() -> None:
@@ -83,7 +87,6 @@ def test_a_fault_is_told_in_both_languages_with_what_to_do() -> None:
     assert "fault: drive_no_timeout" in said
     assert "waiting for" not in said
     assert said.count("did not time out") == 1
-    assert "驱动没有超时停止" in said
 
 
 def test_what_holds_a_robot_is_told_where_no_row_says_it() -> None:
@@ -91,7 +94,6 @@ def test_what_holds_a_robot_is_told_where_no_row_says_it() -> None:
     said = shown(mode="HOLD", held=held, waiting_for=[])
     assert "held (fault: fence)" in said
     assert "too near the fence" in said
-    assert "离围栏太近" in said
     stopped = shown(mode="HOLD", held={"reason": "stop", "id": "s1"}, waiting_for=[])
     assert "held (stop)" in stopped
 
@@ -102,8 +104,7 @@ def test_a_refused_planner_is_told_in_both_languages_with_what_to_do(code: str) 
     said = shown(owner=None, waiting_for=[], answers=[answer])
     assert f"refused hello of p2: {code}: came a" in said
     assert "`pons up`" in said
-    assert "重新启动" in said
-    assert "重新启动" not in shown(answers=[answer | {"accepted": True}])
+    assert "start" not in shown(answers=[answer | {"accepted": True}])
 
 
 def test_a_turn_asks_for_no_place() -> None:
@@ -116,7 +117,6 @@ def test_a_robot_without_a_pose_says_so_first_in_both_languages(state: str) -> N
     said = STATUS.model_dump(mode="json")
     lines = robot_lines({"status": said, "room": None, "localizer": state})
     assert lines[0].startswith("The robot")
-    assert lines[1].startswith("机器人")
     well = robot_lines({"status": said, "room": None, "localizer": "tracking"})
     assert well == robot_lines({"status": said, "room": None})
 
@@ -125,18 +125,24 @@ def test_a_robot_that_knows_why_it_has_no_pose_says_that_first() -> None:
     said, message = STATUS.model_dump(mode="json"), {"en": "Put me back.", "zh": "请放回原处。"}
     trouble = {"code": "carried_while_mapping", "message": message}
     robot = {"status": said, "room": None, "localizer": "lost", "localizer_trouble": trouble}
-    assert robot_lines(robot)[:2] == ["Put me back.", "请放回原处。"]
+    assert robot_lines(robot)[0] == "Put me back."
+    assert "请放回原处。" not in robot_lines(robot)
 
 
-def test_a_map_that_was_changed_under_way_is_named_first_in_both_languages() -> None:
+def test_a_map_that_was_changed_under_way_is_named_first_in_both_languages(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     said = STATUS.model_dump(mode="json")
     robot = {"status": said, "room": None, "localizer": "tracking", "map_id": "a" * 16}
     lines = robot_lines({**robot, "localized_map": "b" * 16})
-    for line in lines[:2]:
+    well = robot_lines(robot)
+    assert well == lines[1:]
+    with monkeypatch.context() as patched:
+        patched.setenv("LC_ALL", "zh_CN.UTF-8")
+        chinese = robot_lines({**robot, "localized_map": "b" * 16})[0]
+    for line in (lines[0], chinese):
         assert "a" * 16 in line
         assert "b" * 16 in line
         assert "pons up" in line
-    assert lines[1].startswith("机器人停着不动")
-    well = robot_lines(robot)
-    assert well == lines[2:]
+    assert chinese.startswith("机器人停着不动")
     assert well == robot_lines({**robot, "localized_map": "a" * 16})

@@ -8,6 +8,7 @@ import "./styles/places.css";
 import "./styles/map.css";
 import "./styles/eyes.css";
 import "./styles/people.css";
+import "./styles/missions.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";

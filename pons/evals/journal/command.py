@@ -15,6 +15,7 @@ from pons.evals.journal.recorded import NoJournal, RecordedDecisions, read
 from pons.evals.journal.show import content, table
 from pons.evals.journal.think import most_calls, think_again
 from pons.evals.model_access import agree_on, choose_model
+from pons.terminal import pick
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -76,9 +77,8 @@ def run(
 def _bill(recorded: RecordedDecisions, model: ModelSettings, host: str) -> str:
     count = len(recorded.decisions)
     calls = most_calls(count)
-    return (
+    return pick(
         f"{count} recorded sentences of people will be sent to {model.name} at {host}, which is "
-        f"not this machine: at most {calls} calls.\n"
-        f"将把 {count} 条录下的指令发送给 {host} 上的 {model.name}，"
-        f"最多 {calls} 次调用。"
+        f"not this machine: at most {calls} calls.",
+        f"将把 {count} 条录下的指令发送给 {host} 上的 {model.name}，最多 {calls} 次调用。",
     )

@@ -14,6 +14,7 @@ from pons.evals.model_access import agree_on, choose_model
 from pons.evals.quick.ask import PROMPT_TOKENS, Caps, examine
 from pons.evals.quick.grade import grade
 from pons.evals.quick.show import content, table
+from pons.terminal import pick
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -64,8 +65,8 @@ def run(
 
 
 def _tell_waiting() -> None:
-    print("waiting for its first word: the model may be loading / 正在等待，模型可能还在加载",
-          file=sys.stderr)  # fmt: skip
+    told = pick("waiting for its first word: the model may be loading", "正在等待模型加载")
+    print(told, file=sys.stderr)
 
 
 def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> str:
@@ -77,10 +78,10 @@ def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> st
         if price is None
         else f"at most {cost(price, sent, written):.2f} {price.currency}"
     )
-    return (
+    return pick(
         f"The exam asks {model.name} at {host}, which is not this machine: at most {caps.calls} "
         f"calls in {caps.seconds:.0f} s, at most {sent} tokens sent and {written} written "
-        f"({money}). Only the exam's own sentences and a drawn picture are sent.\n"
+        f"({money}). Only the exam's own sentences and a drawn picture are sent.",
         f"考试将调用 {host} 上的 {model.name}：最多 {caps.calls} 次、{caps.seconds:.0f} 秒，"
-        f"最多发送 {sent}、生成 {written} 个 token。只发送考题本身和一张绘制的图。"
+        f"最多发送 {sent}、生成 {written} 个 token。只发送考题本身和一张绘制的图。",
     )

@@ -17,6 +17,7 @@ from planner.language.stop import is_stop
 from planner.memory import MemoryStore, Recollection
 from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
+from planner.mission.goal_history import GoalHistory
 from planner.navigation import ObstacleReport
 from planner.people import People
 from planner.perception import Picture, Sight, Thing
@@ -311,6 +312,7 @@ class FakeServices:
         self.speaker = FakeSpeech()
         self.voice = VoiceAbilities()
         self.budget = FakeBudget()
+        self.history = GoalHistory(Path("/nowhere/missions.db"))
         self.replies = ReplyCollector(0)
         self.eyes = FakeEyes()
         self.brain: Brain = OfflineBrain()

@@ -86,8 +86,10 @@ def test_the_defaults_are_what_the_rule_gives_for_the_simulated_motor() -> None:
 
 
 @pytest.mark.parametrize("code", WORDS)
-def test_every_refusal_speaks_both_languages(code: str) -> None:
-    head, english, chinese = CalibrationRefusal(code, "why").lines()
+def test_every_refusal_speaks_both_languages(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    head, english = CalibrationRefusal(code, "why").lines()
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    _, chinese = CalibrationRefusal(code, "why").lines()
     assert head == f"{code}: why"
     assert english.isascii()
     assert any("一" <= character <= "鿿" for character in chinese)

@@ -98,10 +98,12 @@ def test_a_fault_is_one_line_with_its_fix_in_each_language(
     )
     monkeypatch.setattr(command, "findings", lambda _: [found])
     command.run(settings)
-    english, chinese = capsys.readouterr().out.splitlines()
+    [english] = capsys.readouterr().out.splitlines()
     assert english.startswith("FAIL  port")
     assert english.endswith("it is taken -> free it")
-    assert chinese.strip() == "被占用 -> 释放"
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    command.run(settings)
+    assert capsys.readouterr().out.endswith("被占用 -> 释放\n")
 
 
 @pytest.mark.usefixtures("deaf")

@@ -59,17 +59,21 @@ def test_cameras_are_named_and_the_first_is_a_part_of_robot_toml() -> None:
     assert list(camera_part([])) == []
 
 
-def test_nothing_found_is_no_part_and_says_what_to_do() -> None:
+def test_nothing_found_is_no_part_and_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     assert list(robot_part([])) == []
-    english, chinese = describe([])
+    [english] = describe([])
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    [chinese] = describe([])
     assert english.startswith("  port_none: ")
     assert any(ord(letter) > 0x2E80 for letter in chinese)
 
 
 @pytest.mark.parametrize("code", sorted(set(CODES) - {"port_none"}))
-def test_every_code_is_said_in_both_languages(code: str) -> None:
+def test_every_code_is_said_in_both_languages(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
     one = PortFinding(entry(Path("/dev/x")), code, detail="DETAIL")
-    _, english, chinese = describe([one])
+    _, english = describe([one])
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    _, chinese = describe([one])
     assert english.startswith(f"  {code}: ")
     assert "{" not in english + chinese
     assert any(ord(letter) > 0x2E80 for letter in chinese)
@@ -104,5 +108,5 @@ def test_a_person_finds_base_and_lidar(capsys: pytest.CaptureFixture[str]) -> No
 def test_a_port_that_is_none_ends_with_a_refusal(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["robot", "find", "--port", str(tmp_path / "none")]) == 3
+    assert main(["robot", "find", "--port", str(tmp_path / "none")]) == 1
     assert "port_missing" in capsys.readouterr().out

@@ -5,6 +5,7 @@ import { useRef } from "preact/hooks";
 import { t } from "../i18n";
 import { DriveTab } from "./DriveTab";
 import { LogTab } from "./LogTab";
+import { MissionsTab } from "./MissionsTab";
 import { ObjectsTab } from "./ObjectsTab";
 import { OrdersTab } from "./OrdersTab";
 import { PlacesTab } from "./PlacesTab";
@@ -12,7 +13,7 @@ import { RobotTab } from "./RobotTab";
 import { SetupTab } from "./SetupTab";
 import { inSetup } from "../state/trial";
 
-type TabId = "setup" | "drive" | "orders" | "places" | "objects" | "robot" | "log";
+type TabId = "setup" | "drive" | "orders" | "places" | "objects" | "robot" | "log" | "missions";
 
 const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "drive", View: DriveTab },
@@ -20,6 +21,7 @@ const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "places", View: PlacesTab },
   { id: "objects", View: ObjectsTab },
   { id: "robot", View: RobotTab },
+  { id: "missions", View: MissionsTab },
   { id: "log", View: LogTab },
 ];
 

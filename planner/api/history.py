@@ -1,0 +1,76 @@
+"""Serve the list of missions: by day, state and words, a page at a time; and one with its story.
+
+Whoever may see the goals may see them here; the model's own words stay with /v1/goals.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query
+
+from planner.api.interfaces import Services
+from planner.budget import Usage
+from planner.mission.api_view import recorded_goal
+from planner.mission.errors import UnknownGoal
+from planner.mission.goal_history import GoalStory, HistoryPage, HistoryQuery
+from planner.mission.recorded_track import RecordedTrack
+from planner.plan import Frozen, Goal, GoalState
+
+Limit = Annotated[int, Query(ge=1, le=200)]
+UnixTime = Annotated[float | None, Query(ge=0.0, le=1e11)]
+Words = Annotated[str | None, Query(max_length=200)]
+Cursor = Annotated[int | None, Query(ge=0, le=2**53)]
+
+
+class ToldGoal(Frozen):
+    """Show a goal whole, with its story and what the model cost for it."""
+
+    goal: Goal
+    story: GoalStory
+    usage: Usage
+
+
+def routes(services: Services) -> APIRouter:
+    """Return the routes below /v1/history."""
+    router = APIRouter(prefix="/v1/history", tags=["history"])
+
+    @router.get("", operation_id="list_history")
+    async def several(
+        since_unix_s: UnixTime = None,
+        until_unix_s: UnixTime = None,
+        state: GoalState | None = None,
+        search: Words = None,
+        before: Cursor = None,
+        limit: Limit = 50,
+    ) -> HistoryPage:
+        """List goals, the newest first; ``before`` is a former page's ``next``."""
+        return await services.history.find(
+            HistoryQuery(
+                since_unix_s=since_unix_s, until_unix_s=until_unix_s, state=state, search=search,
+                before=before, limit=limit,
+            )
+        )  # fmt: skip
+
+    @router.get("/{goal_id}", operation_id="get_history")
+    async def one(goal_id: str) -> ToldGoal:
+        """Show one goal with who gave it, what was asked and answered, and what it cost."""
+        mission, story = await services.history.story(goal_id)
+        try:
+            goal = services.goals.goal(goal_id)  # with its progress, and its place in the queue
+        except UnknownGoal:
+            goal = recorded_goal(mission)
+        await services.budget.look(goal_id)
+        return ToldGoal(goal=goal, story=story, usage=services.budget.usage(goal_id))
+
+    @router.get("/{goal_id}/track", operation_id="get_history_track")
+    async def track(goal_id: str) -> RecordedTrack:
+        """Show how the robot moved: pose, speed asked and measured, rows, as the black box has it.
+
+        Empty where nothing of that time is kept any more.
+        """
+        mission, story = await services.history.story(goal_id)
+        began = story.changes[0].at_unix_s if story.changes else mission.created_unix_s
+        return await services.history.tracks.read(began, mission.updated_unix_s)
+
+    return router

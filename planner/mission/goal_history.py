@@ -1,0 +1,219 @@
+"""List what the robot was told, years back: a short row of each goal beside its record.
+
+The journal writes the rows in its own transactions; ``GoalHistory`` reads them on connections of
+its own, in a thread, so that neither the loop nor the journal's writer waits. One row is a hundred
+bytes where a record is three thousand, so ten thousand are searched in milliseconds.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import sqlalchemy as sa
+
+from planner.mission.errors import UnknownGoal
+from planner.mission.journal_records import read_mission
+from planner.mission.recorded_track import TrackReader
+from planner.plan import ENDED, Frozen, GoalState, Language
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from planner.mission.state import Mission
+
+FILE = "missions.db"
+"""The journal of a home."""
+meta = sa.MetaData()
+rows = sa.Table(
+    "history",
+    meta,
+    sa.Column("id", sa.String(64), primary_key=True),
+    sa.Column("order", sa.Integer, nullable=False, index=True),
+    sa.Column("created_unix_s", sa.Float, nullable=False, index=True),
+    sa.Column("updated_unix_s", sa.Float, nullable=False),
+    sa.Column("state", sa.String(32), nullable=False),
+    sa.Column("reason", sa.String(64)),
+    sa.Column("text", sa.Text, nullable=False),
+    sa.Column("language", sa.String(8), nullable=False),
+    sa.Column("source", sa.String(64), nullable=False),
+    sa.Column("metres", sa.Float, nullable=False),
+    sa.Column("told", sa.Text, nullable=False),
+)
+FIRST_CHARACTERS = 300
+"""Of a sentence and of how it ended: the whole stands in its record."""
+
+
+class HistoryRow(Frozen):
+    """Show one goal in short: when, what, by whom, how it ended and how far it went."""
+
+    id: str
+    order: int
+    """Rises with every goal given; the cursor of a list."""
+    created_unix_s: float
+    seconds: float | None
+    """From its giving to its end; None of an open goal."""
+    state: GoalState
+    reason: str | None
+    text: str
+    language: Language
+    source: str
+    metres: float
+    told: dict[str, str]
+    """How it ended, in both languages; empty of an open goal."""
+
+
+class HistoryPage(Frozen):
+    """Hold one page of a list, newest first."""
+
+    goals: tuple[HistoryRow, ...]
+    next: int | None
+    """Where the next page begins, as ``before``; None: this is the last one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HistoryQuery:
+    """Say which goals are wanted; None: all."""
+
+    since_unix_s: float | None = None
+    until_unix_s: float | None = None
+    state: GoalState | None = None
+    search: str | None = None
+    before: int | None = None
+    limit: int = 50
+
+
+class StateChange(Frozen):
+    """Show when a goal came into a state."""
+
+    state: GoalState
+    at_unix_s: float
+
+
+class GoalStory(Frozen):
+    """Show what stands behind a goal: who gave it, what was asked, and when its state changed."""
+
+    source: str
+    questions: tuple[str, ...]
+    replies: tuple[str, ...]
+    """What people answered, each to the question of the same place in the row."""
+    map_id: str
+    metres: float
+    changes: tuple[StateChange, ...]
+    """Empty of a goal so old that only its last record is kept."""
+
+
+def row_of(mission: Mission) -> dict[str, Any]:
+    """Return a goal's row."""
+    told = {}
+    if mission.outcome is not None and mission.state in ENDED:
+        message = mission.outcome.message
+        told = {"en": message.en[:FIRST_CHARACTERS], "zh": message.zh[:FIRST_CHARACTERS]}
+    return {
+        "id": mission.id,
+        "order": mission.order,
+        "created_unix_s": mission.created_unix_s,
+        "updated_unix_s": mission.updated_unix_s,
+        "state": mission.state.value,
+        "reason": mission.reason,
+        "text": mission.text[:FIRST_CHARACTERS],
+        "language": mission.language.value,
+        "source": mission.source,
+        "metres": mission.metres,
+        "told": json.dumps(told, ensure_ascii=False),
+    }
+
+
+class GoalHistory:
+    """Read the rows, and what stands behind one goal, from a journal's file."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self.tracks = TrackReader(path.parent)
+        self._made: sa.Engine | None = None
+
+    @classmethod
+    def in_home(cls, home: Path) -> GoalHistory:
+        """Return the history of a home folder, whose journal may come later."""
+        return cls(home / FILE)
+
+    async def find(self, query: HistoryQuery) -> HistoryPage:
+        """Return the goals that a query asks for, newest first."""
+        return await asyncio.to_thread(self._find, query)
+
+    async def story(self, goal_id: str) -> tuple[Mission, GoalStory]:
+        """Return a goal's record and its story.
+
+        Raises:
+            UnknownGoal: the journal has none of that id.
+        """
+        return await asyncio.to_thread(self._story, goal_id)
+
+    def close(self) -> None:
+        """Give the connections back."""
+        if self._made is not None:
+            self._made.dispose()
+
+    @property
+    def _engine(self) -> sa.Engine:
+        """Return the connections, made when somebody first looks."""
+        if self._made is None:
+            self._made = sa.create_engine(f"sqlite:///{self._path.absolute()}")
+        return self._made
+
+    def _find(self, query: HistoryQuery) -> HistoryPage:
+        wanted = sa.select(rows).where(*_conditions(query)).order_by(rows.c.order.desc())
+        with self._engine.connect() as connection:
+            found = connection.execute(wanted.limit(query.limit + 1)).mappings().all()
+        shown = tuple(_show(row) for row in found[: query.limit])
+        return HistoryPage(goals=shown, next=shown[-1].order if len(found) > len(shown) else None)
+
+    def _story(self, goal_id: str) -> tuple[Mission, GoalStory]:
+        with self._engine.connect() as connection:
+            record = connection.execute(_RECORD, {"goal": goal_id}).scalar()
+            changed = connection.execute(_CHANGES, {"goal": goal_id}).all()
+        if record is None:
+            raise UnknownGoal(goal_id, ())
+        mission = read_mission(record)
+        changes: list[StateChange] = []
+        for state, at_unix_s in changed:
+            if not changes or changes[-1].state != state:
+                changes.append(StateChange(state=GoalState(state), at_unix_s=at_unix_s))
+        return mission, GoalStory(
+            source=mission.source,
+            questions=mission.questions,
+            replies=mission.replies,
+            map_id=mission.map_id,
+            metres=mission.metres,
+            changes=tuple(changes),
+        )
+
+
+_RECORD = sa.text("SELECT record FROM missions WHERE id = :goal")
+_CHANGES = sa.text("SELECT state, at_unix_s FROM transitions WHERE mission = :goal ORDER BY seq")
+
+
+def _conditions(query: HistoryQuery) -> Iterator[sa.ColumnElement[bool]]:
+    if query.since_unix_s is not None:
+        yield rows.c.created_unix_s >= query.since_unix_s
+    if query.until_unix_s is not None:
+        yield rows.c.created_unix_s < query.until_unix_s
+    if query.state is not None:
+        yield rows.c.state == query.state.value
+    if query.before is not None:
+        yield rows.c.order < query.before
+    for word in (query.search or "").split():
+        yield rows.c.text.icontains(word, autoescape=True)
+
+
+def _show(row: sa.RowMapping) -> HistoryRow:
+    fields = {name: row[name] for name in HistoryRow.model_fields if name in row}
+    ended = GoalState(row["state"]) in ENDED
+    lasted_s = round(row["updated_unix_s"] - row["created_unix_s"], 1) if ended else None
+    return HistoryRow.model_validate(
+        {**fields, "state": GoalState(row["state"]), "language": Language(row["language"]),
+         "seconds": lasted_s, "told": json.loads(row["told"])}
+    )  # fmt: skip

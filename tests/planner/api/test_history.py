@@ -1,0 +1,57 @@
+"""The routes of the mission list: pages, filters, one with its story."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from starlette.testclient import TestClient
+
+from planner.api import Access, build
+from planner.mission.effects import Journal
+from planner.mission.goal_history import GoalHistory
+from planner.mission.journal import MissionJournal
+from planner.plan import GoalState
+from tests.planner.api.fakes import FakeServices
+from tests.planner.mission.test_goal_history import mission
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> TestClient:
+    services = FakeServices()
+    journal = MissionJournal.in_home(tmp_path)
+    missions = (mission(1, "go home"), mission(2, "go to the attic", GoalState.FAILED))
+    journal.write((Journal(1, missions, ()),))
+    services.history = GoalHistory.in_home(tmp_path)
+    return TestClient(build(services, Access("127.0.0.1")), base_url="http://127.0.0.1")
+
+
+def test_the_list_is_told_page_by_page(client: TestClient) -> None:
+    page = client.get("/v1/history", params={"limit": 1}).json()
+    assert [goal["id"] for goal in page["goals"]] == ["g2"]
+    rest = client.get("/v1/history", params={"before": page["next"]}).json()
+    assert ([goal["id"] for goal in rest["goals"]], rest["next"]) == (["g1"], None)
+    failed = client.get("/v1/history", params={"state": "failed", "search": "attic"}).json()
+    assert [goal["id"] for goal in failed["goals"]] == ["g2"]
+
+
+def test_one_goal_comes_with_its_story_and_its_cost(client: TestClient) -> None:
+    told = client.get("/v1/history/g1").json()
+    assert told["story"]["metres"] == 2.5
+    assert told["story"]["replies"] == ["the red one"]
+    assert "calls_since_start" in told["usage"]
+    unknown = client.get("/v1/history/g9")
+    assert (unknown.status_code, unknown.json()["code"]) == (404, "unknown_goal")
+
+
+def test_a_track_is_read_by_a_process_and_empty_where_nothing_is_kept(client: TestClient) -> None:
+    track = client.get("/v1/history/g1/track").json()
+    assert track == {"samples": [], "events": [], "gaps": [], "way_m": 0.0}
+    assert client.get("/v1/history/g9/track").status_code == 404
+
+
+@pytest.mark.parametrize(
+    "wrong", ["limit=0", "limit=1000", "state=odd", "before=-1", "since_unix_s=x"]
+)
+def test_a_malformed_question_is_refused(client: TestClient, wrong: str) -> None:
+    assert client.get(f"/v1/history?{wrong}").status_code == 422
