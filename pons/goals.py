@@ -39,6 +39,7 @@ MAX_WAV_BYTES = 3_000_000
 """As many as the planner takes; one more is sent, so that it is the planner who refuses."""
 WAV_TIMEOUT_S = 60.0
 EXIT_WAITING = 5
+SOURCE = "cli"
 EXIT_UNREACHED = 6
 
 
@@ -51,7 +52,7 @@ def say(settings: LaunchSettings, text: str, *, wait: bool, replace: bool = Fals
     reading = read_stop(text)
     if reading is StopReading.ORDER:
         return stop.run(settings)
-    body: dict[str, Any] = {"text": text}
+    body: dict[str, Any] = {"text": text, "source": SOURCE}
     if replace:
         body["replace"] = True
     try:
@@ -212,7 +213,8 @@ def answer(settings: LaunchSettings, words: list[str], *, wait: bool) -> int:
         if not text:
             print(f"no_answer: say what to answer: pons answer {words[0]} TEXT", file=sys.stderr)
             return EXIT_NO_ANSWER
-        goal = call(settings, "POST", f"/v1/goals/{chosen['id']}/answer", {"text": text})
+        body = {"text": text, "source": SOURCE}
+        goal = call(settings, "POST", f"/v1/goals/{chosen['id']}/answer", body)
     except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
     print(goal_line(goal), flush=True)
@@ -226,7 +228,7 @@ def confirm(settings: LaunchSettings, goal_id: str | None, *, wait: bool) -> int
         chosen = goal_id or (_asking(goals, ("awaiting_confirmation",)) or {}).get("id")
         if chosen is None:
             return 1
-        goal = call(settings, "POST", f"/v1/goals/{chosen}/confirm", {})
+        goal = call(settings, "POST", f"/v1/goals/{chosen}/confirm", {"source": SOURCE})
     except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
     print(goal_line(goal), flush=True)
