@@ -66,6 +66,7 @@ export const zh: Record<Key, string> = {
   "now.no_contact": "失去联系",
   "now.battery": "电池 {share}",
   "now.more": "下面还有 {n} 个问题等待回答。",
+  "now.details": "详情",
   "said.title": "对话",
   "said.stopped": "{who}停止",
   "said.yes": "是",

@@ -50,7 +50,7 @@ function goals(): Facts["goals"] {
 
 /** The bridge finds the battery low, whether it drives on or not. */
 export const isLow = computed(
-  () => shownStatus.value?.rows.some(({ row }) => row.split(".")[0] === "BATTERY") ?? false,
+  () => shownStatus.value?.rows.some(({ row }) => row === "BATTERY") ?? false,
 );
 
 export const linkNow = computed(link);
