@@ -12,6 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from planner.memory import MemoryStore, Recollection
+from planner.state_database import StateDatabase
+from tests.planner.api.fakes import FakeServices
 from tests.planner.api.serving import served
 from tests.web.conftest import expected
 from tests.web.states import STATES, Frame, asked
@@ -92,9 +95,11 @@ Open = Callable[..., tuple["Page", Told]]
 
 
 @pytest.fixture(scope="module")
-def address() -> Iterator[str]:
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Serve one planner's routes to all pages."""
-    with served() as server:
+    services, home = FakeServices(), tmp_path_factory.mktemp("home")
+    services.recollection = Recollection(MemoryStore(StateDatabase(home)))
+    with served(services) as server:
         yield f"http://127.0.0.1:{server.port}"
 
 

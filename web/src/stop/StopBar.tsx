@@ -58,7 +58,7 @@ function says(state: StopState): string {
   }
 }
 
-const UNEASY: ReadonlySet<Tone> = new Set(["warn", "bad"]);
+const PLAIN: ReadonlySet<Tone> = new Set(["good", "busy"]);
 
 /** What is said of the robot's motion, and what bounds it; null before the bridge has been heard. */
 const motionNow = steady(() => {
@@ -67,13 +67,12 @@ const motionNow = steady(() => {
   const how = motion(said.measured.v_mps, said.measured.w_radps);
   const moves = t(`motion.${how}`, { speed: Math.abs(said.measured.v_mps).toFixed(2) });
   const { word, tone } = headlineNow.value;
-  const state = UNEASY.has(tone) && linkNow.value === "live" ? t(word) : null;
+  const stands = how === "standing";
+  const told = linkNow.value === "live" && (stands ? tone !== "good" : !PLAIN.has(tone));
   const { v_mps, by } = said.limits;
   return {
-    tone: state === null ? "" : tone,
-    words: [state, state !== null && how === "standing" ? null : moves]
-      .filter((words) => words !== null)
-      .join(" · "),
+    tone: told ? tone : "",
+    words: [...(told ? [t(word)] : []), ...(told && stands ? [] : [moves])].join(" · "),
     limit: said.drive.enabled
       ? t("motion.limit", { speed: v_mps.toFixed(2), what: limitWords(by) })
       : null,
