@@ -40,6 +40,7 @@ MAX_WAV_BYTES = 3_000_000
 """As many as the planner takes; one more is sent, so that it is the planner who refuses."""
 WAV_TIMEOUT_S = 60.0
 EXIT_WAITING = 5
+SOURCE = "cli"
 EXIT_UNREACHED = 6
 
 
@@ -77,7 +78,7 @@ def say(
                 print(json.dumps(spoken, ensure_ascii=False) if as_json else f"  {said}")
                 return EXIT["refused"]
         else:
-            body = {"text": told, **({"replace": True} if replace else {})}
+            body = {"text": told, "source": SOURCE, **({"replace": True} if replace else {})}
             limit_s = DEFAULT_TIMEOUT_S if reading is StopReading.NONE else stop.HTTP_TIMEOUT_S
             goal, language = call(settings, "POST", "/v1/goals", body, limit_s), language_of(told)
     except OSError as error:
@@ -231,7 +232,8 @@ def answer(settings: LaunchSettings, words: list[str], *, wait: bool) -> int:
         if not text:
             print(f"no_answer: say what to answer: pons answer {words[0]} TEXT", file=sys.stderr)
             return EXIT_NO_ANSWER
-        goal = call(settings, "POST", f"/v1/goals/{chosen['id']}/answer", {"text": text})
+        body = {"text": text, "source": SOURCE}
+        goal = call(settings, "POST", f"/v1/goals/{chosen['id']}/answer", body)
     except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
     print(goal_line(goal), flush=True)
@@ -245,7 +247,7 @@ def confirm(settings: LaunchSettings, goal_id: str | None, *, wait: bool) -> int
         chosen = goal_id or (_asking(goals, ("awaiting_confirmation",)) or {}).get("id")
         if chosen is None:
             return 1
-        goal = call(settings, "POST", f"/v1/goals/{chosen}/confirm", {})
+        goal = call(settings, "POST", f"/v1/goals/{chosen}/confirm", {"source": SOURCE})
     except (PlannerDown, PlannerProblem) as trouble:
         return _trouble(trouble)
     print(goal_line(goal), flush=True)

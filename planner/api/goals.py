@@ -102,7 +102,7 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
             replace=new.replace,
             idempotency_key=idempotency_key,
             act=act,
-            source=source_of(request, "api"),
+            by=source_of(request, new.source),
         )
 
     @router.get("", operation_id="list_goals")
@@ -150,14 +150,14 @@ def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:
     async def confirm(goal_id: str, order: GoalOrder | None = None) -> Goal:
         """Say yes to a plan; an operator's act."""
         act = persons_act(services.robot, order.operator if order else None)
-        return await goals.confirm(goal_id, act=act)
+        return await goals.confirm(goal_id, act=act, by=order.source if order else "api")
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: GoalReply, request: Request) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
         said = await door.judge(reply.text, request)
         act = act_behind(services.robot, said, reply.operator)
-        return await goals.answer(goal_id, reply.text, act=act)
+        return await goals.answer(goal_id, reply.text, act=act, by=reply.source)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")
     async def move(goal_id: str, where: GoalMove) -> Goal:

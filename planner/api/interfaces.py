@@ -54,7 +54,8 @@ class LayerSource(Protocol):
 class Goals(Protocol):
     """Keep goals; each method answers at once and raises MissionError with a stable code.
 
-    ``act`` is a person's signed ``op/resume``, which clears what the bridge holds.
+    ``act`` is a person's signed ``op/resume``, which clears what the bridge holds; ``by`` is the
+    door that their words came through, to be shown.
     """
 
     async def submit(
@@ -66,7 +67,7 @@ class Goals(Protocol):
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
-        source: str = "api",
+        by: str = "api",
     ) -> Goal: ...
 
     @property
@@ -90,9 +91,13 @@ class Goals(Protocol):
 
     async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal: ...
 
-    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal: ...
+    async def confirm(
+        self, goal_id: str, *, act: OpRequest | None = None, by: str = "api"
+    ) -> Goal: ...
 
-    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal: ...
+    async def answer(
+        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api"
+    ) -> Goal: ...
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal: ...
 

@@ -45,6 +45,8 @@ class NewGoal(Body):
     """Give a goal in words."""
 
     text: Text
+    source: Name = "api"
+    """The door that it comes through (``page``, ``cli``): shown beside the goal."""
     language: Language | None = None
     confirm: StrictBool = False
     """Show the plan and wait for a yes before the first step."""
@@ -58,6 +60,7 @@ class NewGoal(Body):
 class GoalOrder(Body):
     """Act on a goal; resuming may carry a proof."""
 
+    source: Name = "api"
     operator: OperatorProof | None = None
 
 
@@ -65,6 +68,7 @@ class GoalReply(Body):
     """Answer a goal's question."""
 
     text: Text
+    source: Name = "api"
     operator: OperatorProof | None = None
 
 

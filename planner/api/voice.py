@@ -104,6 +104,7 @@ def routes(services: Services) -> APIRouter:
             replace=replace,
             idempotency_key=idempotency_key,
             act=act_behind(services.robot, parse(text), None),
+            by="voice",
         )
         outcome = SpokenOutcome(code="heard")
         return VoiceResult(**_facts(heard), understood=text, goal=goal, outcome=outcome)

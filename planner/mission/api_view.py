@@ -7,7 +7,7 @@ from math import isfinite
 
 from planner.mission.activity import Driving, Retrying, Waiting
 from planner.mission.state import Mission, MissionState
-from planner.plan import Goal, PlanRecord
+from planner.plan import Goal, PauseReason, PlanRecord
 
 Progress = dict[str, float | int | str]
 """The goal, the number of its step, and what is left of it: ``left_m``, ``left_rad``, ``left_s``.
@@ -26,6 +26,9 @@ def recorded_goal(mission: Mission) -> Goal:
     return Goal(
         id=mission.id,
         text=mission.text,
+        by=mission.by,
+        stopped_by=mission.stopped_by if mission.reason == PauseReason.STOP.value else None,
+        answers=mission.answers,
         language=mission.language,
         state=mission.state,
         reason="held" if mission.held and mission.reason is None else mission.reason,

@@ -53,6 +53,8 @@ class Submitted:
     asking: tuple[str, ...] = ()
     """The goals whose question the sentence may answer."""
     source: str = "api"
+    by: str = "api"
+    """The door that it came through, to be shown."""
     local: bool = False
     """It is said to the planner itself, or answers: no order that needs room among the others."""
     changed: ChangedOrder | None = None
@@ -197,6 +199,7 @@ class Confirm:
     """Say yes to a plan."""
 
     id: str
+    by: str = "api"
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,6 +208,7 @@ class Reply:
 
     id: str
     text: str
+    by: str = "api"
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ from planner.mission.open_questions import (
     confirms,
     find_offer,
     find_offered_plan,
+    keep_answer,
     make_room,
     note_answer,
     take_answer,
@@ -89,7 +90,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
     if event.id in turn.book.missions:
         return
     if event.stop or event.doubtful_stop:
-        stop(turn)
+        stop(turn, event.by)
         end_paused(turn, event.denies)
     elif event.resumes:
         acknowledge_hold(turn)
@@ -111,6 +112,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         interrupted=event.interrupts,
         given_under_hold=hold_now(turn),
         source=event.source,
+        by=event.by,
         map_id=turn.book.facts.map_id,
         accepted_at=find_robot(turn.book),
         departed_at=departure_of(turn.book, turn.now_s),
@@ -123,7 +125,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
     if event.asking:
         asking = take_sentence(turn, mission, event.asking)
         if asking is not None:
-            reply(turn, asking, event.text)
+            reply(turn, asking, event.text, event.by)
         return
     _think(turn, turn.put(mission))
 
@@ -198,7 +200,7 @@ def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
         return
     asking = find_asking(turn, mission)
     if asking is not None:
-        reply(turn, asking, mission.words)
+        reply(turn, asking, mission.words, mission.by)
 
 
 def _walkable(turn: Transaction, mission: Mission, event: Planned) -> None:
@@ -243,14 +245,14 @@ def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
     enqueue(turn, mission, cause, first=mission.replace or mission.first)
 
 
-def confirm(turn: Transaction, mission: Mission) -> None:
+def confirm(turn: Transaction, mission: Mission, by: str) -> None:
     """Take a person's yes."""
-    ready(turn, turn.put(mission, given_under_hold=hold_now(turn)), PersonCause.AGREES)
+    ready(turn, keep_answer(turn, mission, None, by), PersonCause.AGREES)
 
 
-def reply(turn: Transaction, mission: Mission, text: str) -> None:
+def reply(turn: Transaction, mission: Mission, text: str, by: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
-    mission = turn.put(mission, given_under_hold=hold_now(turn))
+    mission = keep_answer(turn, mission, text, by)
     ask_anew(turn, mission)
     agreed, order = parse(text).consent, find_offer(mission)
     if asks(mission):
@@ -295,13 +297,13 @@ def resume(turn: Transaction, mission: Mission) -> None:
         enqueue(turn, turn.put(mission, outcome=None), PersonCause.RESUMES, first=True)
 
 
-def stop(turn: Transaction) -> None:
+def stop(turn: Transaction, by: str) -> None:
     """Stand. Running and thinking goals pause; those who wait are kept waiting."""
     reason = PauseReason.STOP.value
-    pause_running(turn, reason, PersonCause.PAUSES)
+    pause_running(turn, reason, PersonCause.PAUSES, by)
     for mission in tuple(turn.book.missions.values()):
         if mission.state is GoalState.PLANNING:
-            pause_planning(turn, mission, reason)
+            pause_planning(turn, turn.put(mission, stopped_by=by), reason)
     turn.set(pardoned=None, pardon_until_s=float("-inf"))
 
 

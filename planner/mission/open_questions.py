@@ -18,17 +18,18 @@ from planner.language.stop import is_stop
 from planner.mission.declined_goals import decline
 from planner.mission.outcomes import ended_outcome, moves
 from planner.mission.plan_check import key_of_deed, unwalkable
-from planner.mission.queue import clear_hold, enqueue, finish, note_step, release_answered
+from planner.mission.queue import clear_hold, enqueue, finish, hold_now, note_step, release_answered
 from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, tell_declined
 from planner.mission.skills.skill_state import BoundedSearchState
-from planner.mission.state import MAX_OPEN, Mission, MissionState
+from planner.mission.state import MAX_ANSWERS, MAX_OPEN, Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact, PersonCause
 from planner.plan import (
     Bilingual,
     Code,
+    GoalAnswer,
     GoalState,
     Outcome,
     StepPlan,
@@ -89,6 +90,18 @@ def find_offered_plan(mission: Mission, answer: str) -> StepPlan | None:
         return None
     order = find_offer(mission) if parse(answer).consent else find_choice(mission, answer)
     return next((each.plan for each in plan.options if each.text in (order, answer)), None)
+
+
+def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) -> Mission:
+    """Keep what a person answered and under which hold, beside the question as it was asked."""
+    answer = GoalAnswer(
+        asked=mission.outcome.message if mission.outcome is not None else None,
+        said=None if said is None else said[:MAX_ANSWER],
+        by=by,
+        unix_s=turn.now_s + turn.book.wall_offset_s,
+    )
+    answers = (*mission.answers, answer)[-MAX_ANSWERS:]
+    return turn.put(mission, answers=answers, given_under_hold=hold_now(turn))
 
 
 def note_answer(turn: Transaction, mission: Mission, text: str) -> Mission:

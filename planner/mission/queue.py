@@ -153,13 +153,15 @@ def skill_state_now(mission: Mission, activity: Activity | None) -> SkillStateBa
     return kept if kept is not None else mission.skill_state
 
 
-def pause_running(turn: Transaction, reason: str, cause: Cause = GoalFact.INTERRUPTED) -> None:
+def pause_running(
+    turn: Transaction, reason: str, cause: Cause = GoalFact.INTERRUPTED, by: str | None = None
+) -> None:
     """Stand still and keep the running mission's place; those who wait are kept waiting."""
     mission = settle_activity(turn)
     if mission is not None:
         if reason == PauseReason.TELEOP.value:  # from now on another hand moves the robot
             mission = turn.put(mission, began_at=None)
-        turn.move_to(mission, cause, reason=reason, outcome=_hint(reason))
+        turn.move_to(mission, cause, reason=reason, outcome=_hint(reason), stopped_by=by)
         turn.set(running=None)
     hold_queue(turn)
 

@@ -238,7 +238,7 @@ class AnswerReception:
 
 
 def receive_answer(
-    book: MissionState, said: SaidSentence, goal_id: str, now_s: float
+    book: MissionState, said: SaidSentence, goal_id: str, now_s: float, by: str = "api"
 ) -> AnswerReception:
     """Return the decision on words that came as the answer to a goal.
 
@@ -266,7 +266,7 @@ def receive_answer(
     declines = said.consent is False and (own_question or asks_freely(book.missions[goal_id]))
     if (said.stays_put and not declines) or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
-    return AnswerReception(command=Reply(goal_id, said.text))
+    return AnswerReception(command=Reply(goal_id, said.text, by))
 
 
 def hears_stop(book: MissionState, said: SaidSentence, now_s: float) -> bool:

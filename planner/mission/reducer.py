@@ -171,7 +171,7 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
         case Submitted():
             submit(turn, event)
         case Stopped():
-            stop(turn)
+            stop(turn, event.source)
         case Restarted():
             restart(turn, event)
         case Known():
@@ -190,9 +190,9 @@ def _command(turn: Transaction, event: Command) -> None:
         case Resume():
             resume(turn, mission)
         case Confirm():
-            confirm(turn, mission)
+            confirm(turn, mission, event.by)
         case Reply():
-            reply(turn, mission, event.text)
+            reply(turn, mission, event.text, event.by)
         case Move():
             reorder(turn, event.id, event.before)
         case ChangeSpeed():

@@ -144,7 +144,7 @@ class Missions:
         await self.loop.close()
         await self._router.close()
 
-    async def submit(
+    async def submit(  # noqa: PLR0913  # what a request may hold, by name
         self,
         text: str,
         *,
@@ -154,6 +154,7 @@ class Missions:
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
         source: str = "api",
+        by: str = "api",
         leaning: ChangeReading | None = None,
     ) -> Goal:
         """Take a goal in and return it, usually still in planning. An order to stop stops first.
@@ -167,7 +168,8 @@ class Missions:
             replace: end the running goal once this one is understood, and go first.
             idempotency_key: the same key and request return the same goal.
             act: the person's ``op/resume``, signed, which clears the bridge's hold.
-            source: who asks, for the bridge's record of stops.
+            source: whose order it is: a new one closes what a brain asked about older ones.
+            by: the door that it came through, also for the bridge's record of stops.
             leaning: how it leans, where it was said as an answer: it answers nothing then.
 
         Raises:
@@ -176,7 +178,8 @@ class Missions:
             JournalDown: it can't be written down, so it was not taken.
         """
         said, goal_id = parse(text), self._clocks.new_id()
-        given = Submitted(goal_id, text, language or said.language, confirm, replace, source=source)
+        spoken = language or said.language
+        given = Submitted(goal_id, text, spoken, confirm, replace, source=source, by=by)
         heard = receive(
             self.loop.book, said, given, self._clocks.monotonic(),
             leaning=leaning, key=idempotency_key, repeats=self._repeats,
@@ -184,7 +187,7 @@ class Missions:
         if heard.refused is not None:
             raise heard.refused
         if heard.stops:
-            return await self._stop_goal(heard.given, source, act)
+            return await self._stop_goal(heard.given, act)
         if heard.repeats is not None:
             return self.goal(heard.repeats)
         self._repeats.remember(heard.request)
@@ -228,35 +231,31 @@ class Missions:
     async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal:
         """Go on with a goal; without an id, with the one that was paused last.
 
-        Raises:
-            UnknownGoal, BadState: as named.
-            NothingToResume: no id was given and nothing is paused or kept waiting.
+        Raises UnknownGoal, BadState; NothingToResume: no id, and nothing is paused or kept waiting.
         """
         if (wanted := goal_id or goal_to_resume(self.loop.book)) is None:
             raise NothingToResume
         return await self._command(Resume(wanted), act)
 
-    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal:
+    async def confirm(self, goal_id: str, *, act: OpRequest | None = None, by: str = "api") -> Goal:
         """Say yes to a plan. Raises UnknownGoal, BadState."""
-        return await self._command(Confirm(goal_id), act)
+        return await self._command(Confirm(goal_id, by), act)
 
-    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
-        """Do what ``reception.receive_answer`` makes of a goal's answer; a stop always stops.
-
-        Raises:
-            UnknownGoal, BadState: as named.
-        """
-        heard = receive_answer(self.loop.book, parse(text), goal_id, self._clocks.monotonic())
+    async def answer(
+        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api"
+    ) -> Goal:
+        """Do what ``receive_answer`` makes of an answer. Raises UnknownGoal, BadState."""
+        heard = receive_answer(self.loop.book, parse(text), goal_id, self._clocks.monotonic(), by)
         if heard.refused is not None:
             raise heard.refused
         if heard.stops:
-            await self.stop("answer")
+            await self.stop(by)
             if heard.command is not None:
                 self.loop.obey(heard.command)
         elif (command := heard.command) is not None:
             await self._command(command, act if isinstance(command, Reply) else None)
         if heard.sentence is not None:
-            await self.submit(heard.sentence, act=act, leaning=heard.lean)
+            await self.submit(heard.sentence, act=act, by=by, leaning=heard.lean)
         return self.goal(goal_id)
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal:
@@ -321,8 +320,8 @@ class Missions:
             "status": status.model_dump(mode="json") if status is not None else None,
         }
 
-    async def _stop_goal(self, given: Submitted, source: str, act: OpRequest | None = None) -> Goal:
-        result = await self.stop(source)
+    async def _stop_goal(self, given: Submitted, act: OpRequest | None = None) -> Goal:
+        result = await self.stop(given.by)
         act = self.link.sign_again(act)  # the stop has voided what was signed before it
         self.loop.keep_act(given.id, act if given.doubtful_stop else None)
         also = await self.commands.obey_beside_stop(given)

@@ -166,7 +166,7 @@ class StandingGoals:
         body = hashlib.sha256(f"{source}\n{text}".encode()).hexdigest()[:32]
         request = GoalKey(key, body, goal_id)
         self._repeats.remember(request)
-        self._loop.event(Submitted(goal_id, text, language, source=source), request)
+        self._loop.event(Submitted(goal_id, text, language, source=source, by="order"), request)
         try:
             await self._loop.wait_written()
         except JournalDown:

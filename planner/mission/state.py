@@ -23,6 +23,7 @@ from planner.plan import (
     BrainTag,
     ChangedOrder,
     Frozen,
+    GoalAnswer,
     GoalState,
     Language,
     Means,
@@ -41,6 +42,7 @@ RESERVED_KEYS = "standing-order:"
 """What the Idempotency-Key of every such goal begins with, and no other request's may."""
 MAX_OPEN = 33
 """Goals that have not ended: one running and 32 that wait."""
+MAX_ANSWERS = 12
 MAX_ENDED = 200
 """Ended goals kept at hand; the journal keeps ten times as many."""
 
@@ -63,6 +65,12 @@ class Mission(Frozen):
     """What was asked before each of them; empty where an older program kept none."""
     source: str = "api"
     """Who gave it: a new order of the same source closes what a brain asked about older ones."""
+    by: str = "api"
+    """The door that it came through: shown to people, and decides nothing."""
+    stopped_by: str | None = None
+    """Likewise of the stop that paused it last."""
+    answers: tuple[GoalAnswer, ...] = ()
+    """What people answered to any question of it; kept to be shown."""
     plan: PlanRecord | None = None
     outcome: Outcome | None = None
     brain: BrainTag | None = None

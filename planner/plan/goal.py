@@ -167,11 +167,23 @@ class BrainTag(Frozen):
     fallback_message: Bilingual | None = None  # the same for a person
 
 
+class GoalAnswer(Frozen):
+    """Show a question of a goal, what a person answered, by what door, and when."""
+
+    asked: Bilingual | None = None
+    said: str | None = None  # none: a yes by a button
+    by: str = "api"
+    unix_s: float
+
+
 class Goal(Frozen):
     """Show a goal whole: the sentence, its reading, its state, how it ended."""
 
     id: str
     text: str
+    by: str = "api"  # who gave it, as far as that is known: the door that it came through
+    stopped_by: str | None = None  # while it is paused by a stop
+    answers: tuple[GoalAnswer, ...] = ()  # that it was given, oldest first; the newest 12
     language: Language
     state: GoalState
     reason: str | None = None

@@ -33,7 +33,7 @@ def test_the_one_goal_that_waits_is_answered_and_followed(
     planner, settings = served
     planner.goals = [goal("g3", "running"), goal("g2", state), goal("g1", "succeeded")]
     assert goals.answer(settings, words, wait=True) == 0
-    assert planner.heard == [("/v1/goals/g2/answer", {"text": text})]
+    assert planner.heard == [("/v1/goals/g2/answer", {"text": text, "source": "cli"})]
 
 
 def test_of_several_none_is_answered_and_each_is_listed_with_its_question(
@@ -49,7 +49,7 @@ def test_of_several_none_is_answered_and_each_is_listed_with_its_question(
     assert "要吗？" in told
     assert planner.heard == []
     assert goals.answer(settings, ["g1", "yes"], wait=False) == 0
-    assert planner.heard == [("/v1/goals/g1/answer", {"text": "yes"})]
+    assert planner.heard == [("/v1/goals/g1/answer", {"text": "yes", "source": "cli"})]
 
 
 @pytest.mark.parametrize("verb", ["answer", "confirm"])
@@ -75,7 +75,7 @@ def test_a_plan_is_confirmed_though_a_question_waits_beside_it(
     planner, settings = served
     planner.goals = [goal("g1", WAITS[0]), goal("g2", WAITS[1])]
     assert goals.confirm(settings, named, wait=True) == 0
-    assert planner.heard == [("/v1/goals/g2/confirm", {})]
+    assert planner.heard == [("/v1/goals/g2/confirm", {"source": "cli"})]
 
 
 def test_an_id_alone_answers_nothing(

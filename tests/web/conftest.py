@@ -216,7 +216,7 @@ def arrived(robot: Robot, page: Page, goal_id: str) -> str:
         goal = robot.system.goal(goal_id)
         if goal["state"] == "paused" and goal["reason"].startswith(("fault", "disarmed")):
             robot.system.operate("reset" if robot.judge.status.mode == "FAULT" else "arm")
-            resume = page.locator(f"#now .goal[data-goal='{goal_id}'] button.main")
+            resume = page.locator(f"#notice-resume, .turn[data-goal='{goal_id}'] button.main").first
             if robot.judge.status.mode == "HOLD" and resume.is_visible():
                 resume.click()
         assert goal["state"] not in ("failed", "refused", "cancelled"), goal

@@ -24,7 +24,7 @@ def give(page: Page, text: str) -> str:
 
 def ended(page: Page, goal_id: str, state: str = "succeeded") -> str:
     """Wait for a goal's line among those that ended so; return what it says."""
-    line = page.locator(f"#past li[data-goal='{goal_id}'][data-state={state}]")
+    line = page.locator(f".turn[data-goal='{goal_id}'][data-state={state}]")
     line.wait_for(timeout=ARRIVAL_MS)
     return line.inner_text()
 
@@ -72,8 +72,10 @@ class Claim:
 _LOOK = """() => {
   const old = (element) => element === null || element.closest(".stale") !== null;
   const at = (name) => document.querySelector(name);
-  const [mode, motion, robot, now] = [at("#mode"), at(".motion"), at(".robot"), at("#now")];
-  const goals = [...document.querySelectorAll("#now .goal")];
+  const [mode, motion, robot, now] = [at("#mode"), at(".motion"), at(".robot"), at("#said")];
+  const ended = ["succeeded", "failed", "refused", "cancelled"];
+  const goals = [...document.querySelectorAll(".turn")]
+    .filter((goal) => !ended.includes(goal.dataset.state));
   return {
     mode: old(mode) ? null : mode.dataset.mode,
     motion: old(motion) ? null : motion.textContent,
@@ -82,6 +84,7 @@ _LOOK = """() => {
     goals: old(now) ? null : goals.map((goal) => [goal.dataset.goal, goal.dataset.state]),
   };
 }"""
+_MOVES = re.compile("Moving|Turning")
 _AT = re.compile(r"translate\((-?[\d.e-]+)px, (-?[\d.e-]+)px\)")
 
 
@@ -91,7 +94,7 @@ def look(page: Page) -> Claim:
     at = _AT.search(found["at"] or "")
     return Claim(
         mode=found["mode"],
-        moving=None if found["motion"] is None else "Moving" in found["motion"],
+        moving=None if found["motion"] is None else bool(_MOVES.search(found["motion"])),
         at_m=None if at is None else (float(at[1]), float(at[2])),
         link=found["link"],
         goals=None if found["goals"] is None else dict(found["goals"]),

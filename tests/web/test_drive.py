@@ -27,7 +27,7 @@ def test_a_typed_goal_ends_with_the_robot_there(
     page = open_page(locale=locale)
     goal_id = set_off(robot, lambda: give(page, text))
     page.locator("#mode[data-mode=ACTIVE]", has_text=words[0]).wait_for()
-    step = page.locator("#now .step-running .what")
+    step = page.locator(".turn .step-running .what")
     step.wait_for()
     assert (place.name.en if locale == "en-US" else place.name.zh) in step.inner_text()
     assert page.locator("path.way").get_attribute("d")
@@ -38,7 +38,7 @@ def test_a_typed_goal_ends_with_the_robot_there(
     outcome = robot.system.goal(goal_id)["outcome"]["message"]
     said = outcome["en" if locale == "en-US" else "zh"]
     assert page.locator("#announcer", has_text=said).count() == 1
-    told = page.locator(f"#past li[data-goal='{goal_id}'] .outcome").text_content()
+    told = page.locator(f".turn[data-goal='{goal_id}'] .outcome").text_content()
     assert told is not None
     assert told.startswith(said)
 
@@ -47,7 +47,7 @@ def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None
     place = robot.elsewhere()
     page = open_page()
     set_off(robot, lambda: click_at(page, place.pose.x_m, place.pose.y_m))
-    page.locator("#now .goal[data-state=running]").wait_for()
+    page.locator(".turn[data-state=running]").wait_for()
     goal = robot.system.goals()[0]
     assert goal["text"] == f"go to the {place.name.en}"
     # While it drives, a click asks first: instead, or after.
@@ -55,9 +55,9 @@ def test_a_click_on_the_map_is_a_goal(robot: Robot, open_page: OpenPage) -> None
     choice = page.locator(".map-choice")
     choice.wait_for()
     choice.get_by_role("button", name="Add to queue").click()
-    page.locator("#queue li").wait_for()
-    page.locator("#queue li").get_by_role("button", name="Cancel").click()
-    page.locator("#queue").wait_for(state="detached")
+    page.locator(".turn[data-state=queued]").wait_for()
+    page.locator(".turn[data-state=queued]").get_by_role("button", name="Cancel").click()
+    page.locator(".turn[data-state=queued]").wait_for(state="detached")
     assert place.name.en in arrived(robot, page, goal["id"])
     robot.assert_there(place)
 
@@ -77,21 +77,21 @@ def test_two_pages_tell_the_same_story(robot: Robot, open_page: OpenPage) -> Non
     first, second = open_page(), open_page(locale="zh-CN")
     place = robot.elsewhere()
     set_off(robot, lambda: give(first, f"go to the {place.name.en}"))
-    second.locator("#now .goal[data-state=running]").wait_for()
+    second.locator(".turn[data-state=running]").wait_for()
     second.click("#stop")
-    first.locator("#now .goal[data-state=paused]").wait_for()
+    first.locator(".turn[data-state=paused]").wait_for()
     second.locator("#stop-state.good").wait_for()
     assert first.inner_text("#stop-state") == ""  # the other one asked for it
     assert "stop" in first.inner_text("#notice").lower()
     robot.judge.until_standing(3.0)
-    first.locator("#now").get_by_role("button", name="Cancel").click()
-    second.locator("#past li[data-state=cancelled]").first.wait_for()
+    first.locator(".turn[data-state=paused]").get_by_role("button", name="Cancel").click()
+    second.locator(".turn[data-state=cancelled]").first.wait_for()
 
 
 def test_a_question_is_answered_by_a_button(robot: Robot, open_page: OpenPage) -> None:
     page = open_page()
     give(page, "go to the moon")
-    asked = page.locator("#now .clarify")
+    asked = page.locator("#asked .clarify")
     asked.wait_for()
     assert "moon" in asked.inner_text()
     goal = robot.system.goals()[0]
@@ -99,8 +99,8 @@ def test_a_question_is_answered_by_a_button(robot: Robot, open_page: OpenPage) -
     options = goal["plan"]["options"]
     buttons = asked.locator(".buttons button")
     assert buttons.all_inner_texts() == [option["label"]["en"] for option in options]
-    page.locator("#now").get_by_role("button", name="Cancel").click()
-    page.locator("#past li[data-state=cancelled]").first.wait_for()
+    page.locator("#asked").get_by_role("button", name="Cancel").click()
+    page.locator(".turn[data-state=cancelled]").first.wait_for()
 
 
 def test_why_an_order_came_to_nothing_stands_where_a_person_looks(
@@ -108,13 +108,12 @@ def test_why_an_order_came_to_nothing_stands_where_a_person_looks(
 ) -> None:
     page = open_page()
     goal_id = give(page, "forget the place kitchen")
-    told = page.locator(f"#now .unfinished[data-goal='{goal_id}']")
+    told = page.locator(f"#said .turn[data-goal='{goal_id}'] .outcome")
     told.wait_for()
     outcome = robot.system.goal(goal_id)["outcome"]
     assert outcome["code"] == "place_not_kept"
     assert outcome["message"]["en"] in told.inner_text()
-    give(page, "where are you?")
-    told.wait_for(state="detached")
+    assert page.locator("#said .turn").first.get_attribute("data-goal") == goal_id
 
 
 def spoken(robot: Robot, page: Page) -> Json:

@@ -97,7 +97,7 @@ def test_axe_finds_nothing(
 ) -> None:
     page = open_page(size, locale, color_scheme=scheme)
     give(page, "go to the moon")  # a question with its buttons
-    page.locator("#now .clarify").wait_for()
+    page.locator("#asked .clarify").wait_for()
     found = violations(page)
     robot.system.operate("disarm")
     page.locator("#notice.asks").wait_for()
@@ -124,7 +124,7 @@ def test_all_can_be_reached_by_keyboard(robot: Robot, open_page: OpenPage) -> No
     page.locator("#goal-text:focus").wait_for()
     page.keyboard.type("wait 0.1 seconds")
     page.keyboard.press("Enter")
-    page.locator("#past li").first.wait_for()
+    page.locator(".turn[data-state=succeeded]").first.wait_for()
     reached = set()
     for _ in range(60):
         page.keyboard.press("Tab")
@@ -179,7 +179,7 @@ def test_names_of_any_kind_are_text(
     assert page.title() != "owned"
     assert page.locator("#page img[src=x], #page script").count() == 0
     click_at(page, robot.judge.truth.base_in_map.x_m, robot.judge.truth.base_in_map.y_m)
-    page.locator("#now .goal, #past .said").first.wait_for()
+    page.locator(".turn").first.wait_for()
     assert_fits(page)
     page.click("#tab-places")
     page.locator("#taught li").nth(len(NAMES) - 1).wait_for()
@@ -192,7 +192,7 @@ def test_names_of_any_kind_are_text(
 def test_orders_of_any_kind_are_text(robot: Robot, open_page: OpenPage, text: str) -> None:
     page = open_page(PHONE)
     goal_id = give(page, text)
-    line = page.locator(f"#view [data-goal='{goal_id}'] .said")
+    line = page.locator(f".turn[data-goal='{goal_id}'] .said")
     line.wait_for()
     assert json.dumps(line.inner_text().strip()) == json.dumps(text.strip())
     assert_fits(page)

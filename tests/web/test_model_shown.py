@@ -32,7 +32,7 @@ def test_stop_stops_while_the_model_hangs(
     model.set(fault="hang")
     page.fill("#goal-text", "go to the kitchen")
     page.get_by_role("button", name="Do this instead").click()
-    page.locator("#now .goal[data-state=planning]").wait_for()
+    page.locator(".turn[data-state=planning]").wait_for()
     note_presses(page)
     press(page)
     page.locator("#stop-state.good", has_text="confirmed by the robot").wait_for()
@@ -50,7 +50,7 @@ def test_a_plan_is_seen_as_it_is_written(
     page = open_page()
     model.set(tokens_per_s=15)
     planned = give(page, "wait 0.1 seconds then wait 0.2 seconds")
-    draft = page.locator(f"#now .goal[data-goal='{planned}'] .draft")
+    draft = page.locator(f".turn[data-goal='{planned}'] .draft")
     draft.locator(".step", has_text="Wait 0 s").first.wait_for()
     asked = give(page, "where are you?")
     assert "I am in" in ended(page, asked)
@@ -84,7 +84,7 @@ def test_the_offline_brain_is_seen_standing_in(
         ended(page, goal_id)
     language = "en" if locale == "en-US" else "zh"
     why = robot.system.goal(goals[0])["brain"]["fallback_message"][language]
-    past = page.locator(f"#past li[data-goal='{goals[0]}']")
+    past = page.locator(f".turn[data-goal='{goals[0]}']")
     past.locator("summary").click()
     assert past.locator(".fell").inner_text() == f"{stands_in} {why}"
     assert past.locator(".fell").get_attribute("data-reason") == "server_error"
@@ -112,7 +112,7 @@ def test_what_the_model_wrote_is_shown_on_request(
     page = open_page(locale=locale)
     planned = give(page, SHORT)
     ended(page, planned)
-    past = page.locator(f"#past li[data-goal='{planned}']")
+    past = page.locator(f".turn[data-goal='{planned}']")
     assert past.locator(".replies").count() == 0, "of a goal that is not open nothing is fetched"
     past.locator("summary").click()
     past.get_by_text(title).click()

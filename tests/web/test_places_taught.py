@@ -35,4 +35,4 @@ def test_a_place_is_taught_driven_to_and_forgotten(robot: Robot, open_page: Open
     line.wait_for(state="detached")
     page.click("#tab-drive")
     give(page, "go to the reading corner")
-    page.locator("#now .clarify", has_text="reading corner").wait_for()
+    page.locator("#asked .clarify", has_text="reading corner").wait_for()

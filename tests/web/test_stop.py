@@ -70,7 +70,7 @@ def test_stop_stops(
     status = robot.judge.status
     assert status.held is not None
     assert status.held.reason == "stop"
-    page.locator("#now .goal[data-state=paused]").wait_for()
+    page.locator(".turn[data-state=paused]").wait_for()
 
 
 def test_space_and_letters_in_the_goal_box_are_text(robot: Robot, open_page: OpenPage) -> None:

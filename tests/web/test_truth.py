@@ -80,8 +80,8 @@ def test_a_killed_planner_is_told_and_nothing_goes_on_by_itself(
         page.keyboard.press("Escape")
         page.locator("#stop-state.bad").wait_for()
     page.wait_for_selector("#link[data-state=good]", timeout=60_000)
-    page.locator(f"#now .goal[data-goal='{goal_id}'][data-state=paused]").wait_for()
-    assert "Pons was restarted" in page.inner_text("#now")
+    page.locator(f".turn[data-goal='{goal_id}'][data-state=paused]").wait_for()
+    assert "Pons was restarted" in page.inner_text("#said")
     page.locator("#notice.asks").wait_for()
     after = watch(robot, page, 1.5)
     assert after[-1].moving is False
@@ -93,7 +93,7 @@ def test_a_killed_planner_is_told_and_nothing_goes_on_by_itself(
         page.click("#notice-arm")
         page.get_by_role("button", name="Yes, arm").click()
         page.wait_for_selector("#mode[data-mode=HOLD]")
-    page.locator("#now").get_by_role("button", name="Resume").click()
+    page.get_by_role("button", name="Resume").click()
     assert place.name.en in arrived(robot, page, goal_id)
     robot.assert_there(place)
 
@@ -125,7 +125,7 @@ def test_what_is_old_is_grey_within_a_second(robot: Robot, open_page: OpenPage) 
     robot.system.freeze("planner")
     try:
         page.locator("#lost[data-why=planner]").wait_for()
-        for what in ("#mode.stale", ".robot.stale", ".scan.stale", ".motion.stale", "#now.stale"):
+        for what in ("#mode.stale", ".robot.stale", ".scan.stale", ".motion.stale", "#said.stale"):
             page.locator(what).wait_for(state="attached")
         took_ms = page.evaluate("window.greyMs - window.heardMs")
         assert took_ms < 1500, took_ms  # a second, and what a busy machine adds

@@ -3,6 +3,7 @@ import { MapPanel } from "./map/MapPanel";
 import { Camera } from "./eyes/Camera";
 import { tokenNeeded } from "./net/token";
 import { Announcer } from "./panels/Announcer";
+import { Asked } from "./panels/Asked";
 import { Boundary } from "./panels/Boundary";
 import { Lost } from "./panels/Lost";
 import { Notice } from "./panels/Notice";
@@ -20,6 +21,11 @@ export function App({ again }: { again: () => void }) {
         <Lost />
       </Boundary>
       <main class={inSetup.value ? "set-up" : ""}>
+        {!inSetup.value && (
+          <Boundary>
+            <Asked />
+          </Boundary>
+        )}
         {!inSetup.value && (
           <Boundary>
             <MapPanel />

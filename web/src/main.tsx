@@ -9,6 +9,7 @@ import "./styles/map.css";
 import "./styles/eyes.css";
 import "./styles/people.css";
 import "./styles/missions.css";
+import "./styles/talk.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";

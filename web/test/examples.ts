@@ -44,6 +44,9 @@ export function goal(id: string, state = "running", more: Partial<Goal> = {}): G
   return {
     id,
     text: `go ${id}`,
+    by: "page",
+    stopped_by: null,
+    answers: [],
     language: "en",
     state,
     reason: null,

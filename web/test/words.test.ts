@@ -27,7 +27,7 @@ describe("the log", () => {
       text: "Ready → Driving",
       fine: "waypoints",
     });
-    expect(told(entry("bridge", "held", "stop page-1")).text).toMatch(/^Held by a stop/);
+    expect(told(entry("bridge", "held", "stop page-1")).text).toMatch(/^It was stopped/);
     language.value = "zh";
     expect(told(entry("bridge", "row_up", "LIDAR_STALE.0 400 ms")).text).toMatch(/[\u4e00-\u9fff]/);
     expect(told(entry("bridge", "owner", "planner p1")).text).toBe("规划器取得控制权。");

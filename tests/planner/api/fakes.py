@@ -72,9 +72,9 @@ class FakeGoals:
         self.calls: list[tuple[Any, ...]] = []
         self.changes: list[dict[str, Any]] = []
         self.acts: list[OpRequest | None] = []
+        self.doors: list[str] = []
         self.obstacles: FakeLayers | None = None
         self.stops: list[str] = []
-        self.sources: list[str] = []
         self.leg: Leg | None = None
         self.asks = False
 
@@ -93,10 +93,10 @@ class FakeGoals:
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
-        source: str = "api",
+        by: str = "api",
     ) -> Goal:
-        self.sources.append(source)
         self.calls.append(("submit", text, language, confirm, replace, idempotency_key))
+        self.doors.append(by)
         self.acts.append(act)
         return goal(text=text, state=GoalState.PLANNING)
 
@@ -122,10 +122,14 @@ class FakeGoals:
         self.acts.append(act)
         return await self._act("resume", goal_id or "g1")
 
-    async def confirm(self, goal_id: str, *, act: OpRequest | None = None) -> Goal:
+    async def confirm(self, goal_id: str, *, act: OpRequest | None = None, by: str = "api") -> Goal:
+        self.doors.append(by)
         raise BadState(goal_id, "confirm", GoalState.RUNNING, ("awaiting_confirmation",))
 
-    async def answer(self, goal_id: str, text: str, *, act: OpRequest | None = None) -> Goal:
+    async def answer(
+        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api"
+    ) -> Goal:
+        self.doors.append(by)
         self.acts.append(act)
         self.calls.append(("answer", goal_id, text))
         return self.goal(goal_id)

@@ -107,3 +107,14 @@ def test_a_yes_of_who_may_only_look_reaches_no_goal(
         assert "operator's token" in told["en"]
         assert "操作员令牌" in told["zh"]
     assert services.goals.calls == []
+
+
+def test_the_door_of_words_and_answers_is_passed_on(
+    client: TestClient, services: FakeServices
+) -> None:
+    client.post("/v1/goals", json={"text": "go", "source": "page"})
+    client.post("/v1/goals", json={"text": "go"})
+    client.post("/v1/goals/g1/answer", json={"text": "the kitchen", "source": "cli"})
+    client.post("/v1/goals/g1/confirm", json={"source": "page"})
+    client.post("/v1/goals/g1/confirm", json={})
+    assert services.goals.doors == ["page", "api", "cli", "page", "api"]

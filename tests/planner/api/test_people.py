@@ -45,7 +45,7 @@ def test_what_a_person_does_is_written_down_as_theirs(
     assert services.goals.stops == ["anas-phone", "page"]
     client.post("/v1/goals", json={"text": "go to the kitchen"}, headers=ana)
     client.post("/v1/goals", json={"text": "go to the kitchen"}, headers=OWNER)
-    assert services.goals.sources == ["anas-phone", "api"]
+    assert services.goals.doors == ["anas-phone", "api"]
 
 
 def test_a_viewer_looks_and_stops_and_a_removed_person_does_neither(client: TestClient) -> None:

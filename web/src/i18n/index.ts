@@ -38,12 +38,6 @@ export function word(family: string, code: string): string {
   return Object.hasOwn(en, key) ? t(key as Key) : code;
 }
 
-/** Return what the robot does; one that is lost is told so in every mode, and is never ready. */
-export function modeWords(mode: string, lost: string | null): string {
-  if (lost === null) return word("mode", mode);
-  return mode === "HOLD" ? word("mode", lost) : `${word("mode", mode)} · ${word("mode", lost)}`;
-}
-
 export const say = (words: Bilingual): string => words[language.value];
 
 type Words = Readonly<Record<string, Bilingual>>;

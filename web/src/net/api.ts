@@ -91,7 +91,7 @@ export async function giveGoal(
   replace: boolean,
   operator: OperatorProof | null,
 ): Promise<Goal> {
-  const body = { text, ...(replace ? { replace } : {}), ...withProof(operator) };
+  const body = { text, source: "page", ...(replace ? { replace } : {}), ...withProof(operator) };
   const key = { "idempotency-key": newId("page") };
   return (await call("POST", "v1/goals", body, key)) as Goal;
 }
@@ -135,11 +135,10 @@ export async function actOnGoal(
   verb: GoalVerb,
   operator: OperatorProof | null = null,
 ): Promise<Goal> {
-  return (await call(
-    "POST",
-    `v1/goals/${encodeURIComponent(id)}/${verb}`,
-    withProof(operator),
-  )) as Goal;
+  return (await call("POST", `v1/goals/${encodeURIComponent(id)}/${verb}`, {
+    source: "page",
+    ...withProof(operator),
+  })) as Goal;
 }
 
 export async function answerGoal(
@@ -147,7 +146,7 @@ export async function answerGoal(
   text: string,
   operator: OperatorProof | null,
 ): Promise<Goal> {
-  const body = { text, ...withProof(operator) };
+  const body = { text, source: "page", ...withProof(operator) };
   return (await call("POST", `v1/goals/${encodeURIComponent(id)}/answer`, body)) as Goal;
 }
 

@@ -1,12 +1,18 @@
-/** Read aloud and show for a while what just happened: outcomes, questions, failures of requests. */
-import { effect } from "@preact/signals";
+/**
+ * Show for a while what has no place on the page: failures of requests, words of standing orders. What
+ * goals came to stays in the conversation, so it is told here to screen readers alone.
+ */
+import { effect, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { say, word } from "../i18n";
+import { say, t, word } from "../i18n";
 import { note, tell } from "../state/acts";
+import { asks } from "../state/facts";
 import { goals, orderTold } from "../state/store";
 import type { Goal } from "../wire/types";
 
 const SHOWN_MS = 6000;
+
+const heard = signal("");
 
 export function Announcer() {
   const shown = note.value;
@@ -21,6 +27,7 @@ export function Announcer() {
   }, [shown]);
   return (
     <div class="announcer" aria-live="polite" role="status" id="announcer">
+      <p class="unseen">{heard.value}</p>
       {shown && <p class={`note clip-3 ${shown.bad ? "bad" : ""}`}>{shown.text}</p>}
     </div>
   );
@@ -46,7 +53,7 @@ function watchOrders(): () => void {
 }
 
 function announce(goal: Goal): void {
-  if (goal.outcome) tell(say(goal.outcome.message), goal.state === "failed");
-  else if (goal.state === "needs_clarification" && goal.plan?.text) tell(say(goal.plan.text));
-  else if (goal.state === "paused") tell(`${word("state", goal.state)}: ${goal.text}`);
+  if (goal.outcome) heard.value = say(goal.outcome.message);
+  else if (asks(goal)) heard.value = t("said.shall_i");
+  else if (goal.state === "paused") heard.value = `${word("state", goal.state)}: ${goal.text}`;
 }

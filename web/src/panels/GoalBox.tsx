@@ -63,8 +63,10 @@ export function GoalBox() {
           </button>
         )}
       </form>
-      <Talk />
-      <Aloud />
+      <div class="voice">
+        <Talk />
+        <Aloud />
+      </div>
       <Names />
     </section>
   );

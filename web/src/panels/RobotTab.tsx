@@ -15,6 +15,7 @@ import {
   setup,
   shownStatus,
 } from "../state/store";
+import { headlineNow } from "../state/facts";
 import { busy, enter, inSetup } from "../state/trial";
 import type { Status } from "../wire/types";
 import { Deliberate, KeyBox } from "./Deliberate";
@@ -132,7 +133,7 @@ function State({ said }: { said: Status }) {
       </h2>
       <Pairs
         pairs={[
-          [t("robot.mode"), word("mode", said.mode)],
+          [t("robot.mode"), t(headlineNow.value.word)],
           [t("robot.held"), said.held ? word("reason", said.held.reason) : t("robot.no")],
           [t("robot.room"), nameOf(shown.value?.room ?? null) || "–"],
           [
@@ -146,10 +147,18 @@ function State({ said }: { said: Status }) {
             t("robot.battery"),
             said.drive.battery === null ? "–" : fixed(said.drive.battery * 100, 0, "%"),
           ],
-          [t("robot.owner"), said.owner?.planner_id ?? t("robot.nobody")],
-          [t("robot.epoch"), said.epoch],
         ]}
       />
+      <details>
+        <summary class="fine">{t("now.details")}</summary>
+        <Pairs
+          pairs={[
+            [t("robot.mode"), said.mode],
+            [t("robot.owner"), said.owner?.planner_id ?? t("robot.nobody")],
+            [t("robot.epoch"), said.epoch],
+          ]}
+        />
+      </details>
       <Speeds said={said} />
     </section>
   );

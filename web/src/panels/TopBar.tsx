@@ -1,23 +1,18 @@
 /** Show who speaks to this page and how fresh it is, and let the person choose the language. */
 import { computed } from "@preact/signals";
-import { choose, language, modeWords, t } from "../i18n";
-import {
-  age,
-  bridgeFresh,
-  bridgeHeard,
-  open,
-  pageFresh,
-  pageHeard,
-  shown,
-  shownStatus,
-  poseUnknown,
-} from "../state/store";
-import { seconds } from "./format";
+import { choose, language, t } from "../i18n";
+import { age, bridgeFresh, shown, shownStatus } from "../state/store";
+import { headlineNow, isLow, linkNow } from "../state/facts";
+import { percent, seconds } from "./format";
 import { inSetup } from "../state/trial";
 import { toGoalBox } from "./Tabs";
 
 const siteNow = computed(() => shown.value?.site);
 const modeNow = computed(() => shownStatus.value?.mode ?? "none");
+const batteryNow = computed(() => {
+  const charge = shownStatus.value?.drive.battery ?? null;
+  return charge === null ? null : percent(charge);
+});
 
 export function TopBar() {
   const site = siteNow.value;
@@ -38,6 +33,7 @@ export function TopBar() {
       <h1>Pons</h1>
       {site && <span class="site clip">{site}</span>}
       <Mode />
+      <Battery />
       <Link />
       <fieldset class="languages">
         <legend class="unseen">{t("page.language")}</legend>
@@ -58,28 +54,49 @@ export function TopBar() {
 }
 
 function Mode() {
-  const mode = modeNow.value;
-  const lost = bridgeFresh.value && !inSetup.value ? poseUnknown.value : null;
-  const state = lost === null ? `mode-${mode}` : "bad";
+  const { word, tone } = headlineNow.value;
   return (
     <span
-      class={`chip mode ${state} ${bridgeFresh.value ? "" : "stale"}`}
+      class={`chip mode ${tone} ${linkNow.value === "live" ? "" : "stale"}`}
       id="mode"
-      data-mode={mode}
+      data-mode={modeNow.value}
+      data-word={word}
     >
-      {modeWords(inSetup.value ? "setup" : mode, lost)}
+      {t(word)}
+    </span>
+  );
+}
+
+/** Say how full the battery is, where the drive tells; amber where the bridge finds it low. */
+function Battery() {
+  const share = batteryNow.value;
+  if (share === null) return null;
+  return (
+    <span
+      class={`chip battery ${isLow.value ? "warn" : ""} ${bridgeFresh.value ? "" : "stale"}`}
+      id="battery"
+      role="img"
+      aria-label={t("now.battery", { share })}
+    >
+      {share}
     </span>
   );
 }
 
 /** Say how the page hears; while all is well it says so without counting. */
 function hearing(): readonly [text: string, state: string] {
-  if (!pageHeard.value) return [t("link.connecting"), "stale"];
-  if (!open.value || !pageFresh.value)
-    return [t("link.lost", { age: seconds(age("page")) }), "bad"];
-  if (!bridgeHeard.value) return [t("link.never"), "bad"];
-  if (!bridgeFresh.value) return [t("link.bridge_silent", { age: seconds(age("status")) }), "bad"];
-  return [t("link.live"), "good"];
+  switch (linkNow.value) {
+    case "connecting":
+      return [t("link.connecting"), "stale"];
+    case "lost":
+      return [t("link.lost", { age: seconds(age("page")) }), "bad"];
+    case "unheard":
+      return [t("link.never"), "bad"];
+    case "silent":
+      return [t("link.bridge_silent", { age: seconds(age("status")) }), "bad"];
+    case "live":
+      return [t("link.live"), "good"];
+  }
 }
 
 function Link() {

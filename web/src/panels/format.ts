@@ -1,5 +1,5 @@
 /** Write numbers for people; a number that is not there is a dash. */
-import { t } from "../i18n";
+import { language, t } from "../i18n";
 
 export function fixed(value: number | null | undefined, digits: number, unit = ""): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
@@ -17,6 +17,15 @@ export function seconds(value: number | null): string {
   if (value < 120) return t("unit.s", { n: String(Math.round(value)) });
   if (value < 7200) return t("unit.min", { n: String(Math.round(value / 60)) });
   return t("unit.h", { n: String(Math.round(value / 3600)) });
+}
+
+/** Write when something was: the time of day, with its date where that is not today's. */
+export function when(wallMs: number, nowMs: number): string {
+  const then = new Date(wallMs);
+  const time = clock(wallMs).slice(0, 5);
+  if (then.toDateString() === new Date(nowMs).toDateString()) return time;
+  const tongue = language.value === "zh" ? "zh-CN" : "en";
+  return `${then.toLocaleDateString(tongue, { month: "short", day: "numeric" })} ${time}`;
 }
 
 export function clock(wallMs: number): string {

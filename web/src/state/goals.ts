@@ -5,6 +5,16 @@ const ENDED = new Set(["succeeded", "failed", "refused", "cancelled"]);
 
 export const ended = (goal: Goal): boolean => ENDED.has(goal.state);
 
+/** Say whether a goal that went well has left a part of what was asked undone. */
+export const onlyPartly = ({ state, outcome, plan }: Goal): boolean =>
+  state === "succeeded" &&
+  (outcome?.code === PARTLY ||
+    (plan?.steps ?? []).some(
+      ({ code, stops }) => code === PARTLY || stops?.some(({ shut }) => shut),
+    ));
+
+const PARTLY = "partly_explored";
+
 export type Sorted = {
   readonly current: readonly Goal[]; // running first, then those that wait for a person
   readonly queued: readonly Goal[]; // next first

@@ -3,6 +3,8 @@ import { t } from "../i18n";
 import { seconds } from "../panels/format";
 import { limitWords } from "../panels/steps";
 import { age, bridgeFresh, shownStatus } from "../state/store";
+import { headlineNow, linkNow } from "../state/facts";
+import { motion, type Tone } from "../state/headline";
 import { steady } from "../state/steady";
 import { isTrying } from "../state/trial";
 import type { StopState } from "./machine";
@@ -56,15 +58,21 @@ function says(state: StopState): string {
   }
 }
 
+const PLAIN: ReadonlySet<Tone> = new Set(["good", "busy"]);
+
 /** What is said of the robot's motion, and what bounds it; null before the bridge has been heard. */
 const motionNow = steady(() => {
   const said = shownStatus.value;
   if (said === null) return null;
-  const speed = Math.abs(said.measured.v_mps);
-  const moving = speed > 0.02 || Math.abs(said.measured.w_radps) > 0.05;
+  const how = motion(said.measured.v_mps, said.measured.w_radps);
+  const moves = t(`motion.${how}`, { speed: Math.abs(said.measured.v_mps).toFixed(2) });
+  const { word, tone } = headlineNow.value;
+  const stands = how === "standing";
+  const told = linkNow.value === "live" && (stands ? tone !== "good" : !PLAIN.has(tone));
   const { v_mps, by } = said.limits;
   return {
-    words: moving ? t("motion.moving", { speed: speed.toFixed(2) }) : t("motion.standing"),
+    tone: told ? tone : "",
+    words: [...(told ? [t(word)] : []), ...(told && stands ? [] : [moves])].join(" · "),
     limit: said.drive.enabled
       ? t("motion.limit", { speed: v_mps.toFixed(2), what: limitWords(by) })
       : null,
@@ -73,12 +81,12 @@ const motionNow = steady(() => {
 
 /** Say whether the robot moves, as measured; grey with its age when that is old. */
 function Motion() {
-  const motion = motionNow.value;
-  if (motion === null) return <p class="motion stale">{t("motion.unknown")}</p>;
-  const { words, limit } = motion;
+  const found = motionNow.value;
+  if (found === null) return <p class="motion stale">{t("motion.unknown")}</p>;
+  const { words, limit, tone } = found;
   if (isTrying.value && bridgeFresh.value) return <p class="motion">{t("motion.trial")}</p>;
   return bridgeFresh.value ? (
-    <p class="motion">
+    <p class={`motion ${tone}`}>
       {words}
       {limit && <span class="fine limit">{limit}</span>}
     </p>

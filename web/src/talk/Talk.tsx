@@ -126,7 +126,7 @@ async function send(sound: ArrayBuffer, stopped: boolean): Promise<void> {
   const spoken = await giveSpoken(sound, stopped);
   if (spoken.goal) {
     learn(spoken.goal);
-    tell(t(spoken.trouble ? "talk.instead" : "goal.sent", { text: spoken.goal.text }));
+    if (spoken.trouble) tell(t("talk.instead", { text: spoken.goal.text }));
   } else if (spoken.message) {
     tell(say(spoken.message));
   }

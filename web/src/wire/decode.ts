@@ -148,12 +148,20 @@ const step = (value: unknown): boolean =>
   (value.stops === undefined || all(value.stops, stop));
 const option = (value: unknown): boolean => bag(value) && text(value.text) && words(value.label);
 
+const answer = (value: unknown): boolean =>
+  bag(value) &&
+  text(value.by) &&
+  textOrNull(value.said) &&
+  finite(value.unix_s) &&
+  (value.asked === null || words(value.asked));
+
 export function isGoal(value: unknown): value is Goal {
   if (!bag(value)) return false;
   const { plan, outcome, brain } = value;
   return (
-    [value.id, value.text, value.state, value.created].every(text) &&
-    textOrNull(value.reason) &&
+    [value.id, value.text, value.by, value.state, value.created, value.updated].every(text) &&
+    [value.reason, value.stopped_by].every(textOrNull) &&
+    all(value.answers, answer) &&
     finiteOrNull(value.position) &&
     (brain === null || isTag(brain)) &&
     (plan === null ||

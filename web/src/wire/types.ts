@@ -152,6 +152,7 @@ export type Step = {
   readonly angle_rad: number | null;
   readonly distance_m: number | null;
   readonly state: string;
+  readonly code?: string | null;
   readonly reached: Spot | null;
   readonly residual_m: number | null;
   readonly residual_rad: number | null;
@@ -218,9 +219,20 @@ export type Tag = {
   readonly fallback_message: Bilingual | null;
 };
 
+/** A question of a goal, and what a person answered; null: a yes by a button. */
+export type GoalAnswer = {
+  readonly asked: Bilingual | null;
+  readonly said: string | null;
+  readonly by: string;
+  readonly unix_s: number;
+};
+
 export type Goal = {
   readonly id: string;
   readonly text: string;
+  readonly by: string; // the door that it came through
+  readonly stopped_by: string | null;
+  readonly answers: readonly GoalAnswer[];
   readonly language: string;
   readonly state: string;
   readonly reason: string | null;
