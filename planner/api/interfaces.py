@@ -133,7 +133,12 @@ class Robot(Protocol):
 
     async def offer_fence(self, request: FenceRequest) -> Answer | None: ...
 
-    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
+    @property
+    def driver(self) -> dict[str, str] | None: ...
+
+    def steer(
+        self, source: str, v_mps: float, w_radps: float, *, dead_man: bool, name: str = ""
+    ) -> None: ...
 
 
 class Budget(Protocol):

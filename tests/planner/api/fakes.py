@@ -156,6 +156,7 @@ class FakeRobot:
         self.takes_hints = True
         self.localized_map: str | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
+        self.driver: dict[str, str] | None = None
         self.points: list[tuple[float, float]] = []
         self.trial: TrialState | None = None
         self.trial_orders: list[TrialOrder] = []
@@ -195,7 +196,9 @@ class FakeRobot:
         self.offered.append(request)
         return self.verdict
 
-    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:
+    def steer(
+        self, source: str, v_mps: float, w_radps: float, *, dead_man: bool, name: str = ""
+    ) -> None:
         self.steers.append((source, v_mps, w_radps, dead_man))
 
 
