@@ -43,12 +43,16 @@ APART_S = 0.04
 burst that a network kept back for a flood."""
 IDLE_APART_S = 0.2
 """Between two frames of one that is not held; they show the bridge that it is released."""
+QUIET_S = 0.2
+"""Of a held stick without a frame, four of which should have come: with what is still on its way
+this is sooner than the bridge's own 0.25 s, which stand behind it."""
 SILENT_S = 5.0
+"""Of one that is not held; then its socket is closed."""
 MOST_SOCKETS = 8
 MOST_BYTES = 400
 POLICY_VIOLATION = 1008
 _BEATS = 32
-_GONE = (WebSocketDisconnect, RuntimeError, TimeoutError)
+_GONE = (WebSocketDisconnect, RuntimeError)
 """What a socket raises that nobody is left at."""
 _Fraction = Annotated[float, Field(ge=-1.0, le=1.0, strict=True)]
 
@@ -94,6 +98,11 @@ class Hand:
         self._seq = -1
         self._held = False
         self._told_s = float("-inf")
+
+    @property
+    def patience_s(self) -> float:
+        """Return how long nothing may come."""
+        return QUIET_S if self._held else SILENT_S
 
     def next_beat(self, now_s: float) -> int:
         """Number a beat that is sent now."""
@@ -220,8 +229,15 @@ class _Stick:
 
     async def _listen(self) -> None:
         while True:
-            async with asyncio.timeout(SILENT_S):
-                message = await self._socket.receive()
+            try:
+                async with asyncio.timeout(self._hand.patience_s):
+                    message = await self._socket.receive()
+            except TimeoutError:
+                order = self._hand.refuse("hand_late")
+                if order is None:
+                    return  # not even held
+                relay(self._robot, self.source, self._name, order)
+                continue
             if message["type"] != "websocket.receive":
                 return
             try:

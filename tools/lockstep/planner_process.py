@@ -221,6 +221,11 @@ class PlannerProcess:
         """Tell whether a route, a plan, the disk or an answer is still to come."""
         return self._tasks.busy
 
+    @property
+    def link(self) -> Link:
+        """Return the planner's way to the bridge."""
+        return self._link
+
     def think_with(self, brain: Brain) -> None:
         """Let this brain turn sentences into plans."""
         self._brain.brain = brain

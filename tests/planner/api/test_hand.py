@@ -138,6 +138,19 @@ def test_a_socket_that_closes_lets_go(server: Served) -> None:
     assert told(server, 3)[2][1:] == (0.0, 0.0, False)
 
 
+def test_a_held_stick_that_falls_silent_is_let_go(server: Served) -> None:
+    with opened(server) as socket:
+        say(socket, 1)
+        say(socket, 2, held=True)
+        assert told(server, 3)[2][1:] == (0.0, 0.0, False)
+        while (heard := beat(socket))["code"] is None:
+            pass
+        assert heard["code"] == "hand_late"
+        say(socket, 3, held=True)
+        say(socket, 4)
+        assert told(server, 4)[3][1:] == (0.0, 0.0, False)
+
+
 def test_a_beat_tells_who_drives_and_why_the_stick_does_not(server: Served) -> None:
     server.services.robot.driver = {"id": "page-ana", "name": "Ana"}
     with opened(server) as socket:
