@@ -1,6 +1,7 @@
 /** Lay the page out: the bar above, map and views, Stop below on every view. */
 import { MapPanel } from "./map/MapPanel";
 import { Camera } from "./eyes/Camera";
+import { HandPanel } from "./hand/HandPanel";
 import { tokenNeeded } from "./net/token";
 import { Announcer } from "./panels/Announcer";
 import { Boundary } from "./panels/Boundary";
@@ -30,6 +31,7 @@ export function App({ again }: { again: () => void }) {
             {tokenNeeded.value ? <TokenForm used={again} /> : null}
             {!inSetup.value && <Notice />}
             {!inSetup.value && <Camera />}
+            <HandPanel />
             <Tabs />
           </Boundary>
         </div>

@@ -7,6 +7,7 @@ import "./styles/panels.css";
 import "./styles/places.css";
 import "./styles/map.css";
 import "./styles/eyes.css";
+import "./styles/hand.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";
