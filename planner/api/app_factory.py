@@ -23,6 +23,7 @@ from planner.api import (
     pictures,
     places,
     problems,
+    rehearsals,
     robot,
     setup,
     static_files,
@@ -44,8 +45,8 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, voice, live_voice, operator, hand, setup, robot, orders, places, localization, objects,
-    memory, pictures, camera, fence, usage, health, websocket,
+    goals, rehearsals, voice, live_voice, operator, hand, setup, robot, orders, places,
+    localization, objects, memory, pictures, camera, fence, usage, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
+    from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
@@ -205,6 +206,9 @@ class Services(Protocol):
 
     @property
     def goals(self) -> Goals: ...
+
+    @property
+    def rehearser(self) -> Rehearser: ...
 
     @property
     def robot(self) -> Robot: ...

@@ -191,7 +191,8 @@ class PlannerProcess:
             clock=self._tasks.time,
             new_id=self._new_id,
         )
-        router = PacedRouter(_routers(scene), pace.route * TICK_S, scene.router.new_memory())
+        self.obstacle_memory = scene.router.new_memory()
+        router = PacedRouter(_routers(scene), pace.route * TICK_S, self.obstacle_memory)
         self.missions = Missions(
             site=scene.site,
             robot=scene.robot,
