@@ -10,6 +10,7 @@ import { Notice } from "./panels/Notice";
 import { Tabs } from "./panels/Tabs";
 import { TokenForm } from "./panels/TokenForm";
 import { TopBar } from "./panels/TopBar";
+import { RehearsalPanel } from "./rehearse/RehearsalPanel";
 import { inSetup } from "./state/trial";
 import { StopBar } from "./stop/StopBar";
 
@@ -30,6 +31,7 @@ export function App({ again }: { again: () => void }) {
           <Boundary>
             {tokenNeeded.value ? <TokenForm used={again} /> : null}
             {!inSetup.value && <Notice />}
+            {!inSetup.value && <RehearsalPanel />}
             {!inSetup.value && <Camera />}
             <HandPanel />
             <Tabs />

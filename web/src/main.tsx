@@ -8,6 +8,7 @@ import "./styles/places.css";
 import "./styles/map.css";
 import "./styles/eyes.css";
 import "./styles/hand.css";
+import "./styles/rehearsal.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";
@@ -32,6 +33,7 @@ import {
   taught,
   wantsSnapshot,
 } from "./state/store";
+import { startRehearsals } from "./rehearse/rehearsal";
 import { startVisible } from "./state/visible";
 import { listen } from "./stop/keys";
 import { startStopper, stop } from "./stop/stopper";
@@ -62,6 +64,7 @@ startVisible();
 startAloud();
 startCamera();
 startClock();
+startRehearsals();
 effect(() => {
   if (wantsSnapshot.value) socket.send({ snapshot: true });
 });
