@@ -105,7 +105,7 @@ class Rehearsal(Frozen):
 
 
 @dataclass(slots=True)
-class _Walk:
+class _PlanCourse:
     """Walk along a plan: where the robot would be, and what was found."""
 
     rows: Sequence[StepRecord]
@@ -194,10 +194,10 @@ class Rehearser:
         if plan is None or not plan.steps:
             said = plan.text if plan is not None else None
             raise RehearsalError("rehearsal_no_plan", "there is no plan to show", said)
-        walk = _Walk(plan.steps, self._pose())
+        walk = _PlanCourse(plan.steps, self._pose())
         async with self._turn:
-            await self._all(walk)
-        return self._told(walk)
+            await self._rehearse_all(walk)
+        return self._sum_up(walk)
 
     def _pose(self) -> Pose2:
         status = self._book().status
@@ -205,14 +205,14 @@ class Rehearser:
             raise RehearsalError("rehearsal_without_pose", "the robot does not know where it is")
         return status.base_in_map
 
-    async def _all(self, walk: _Walk) -> None:
+    async def _rehearse_all(self, walk: _PlanCourse) -> None:
         pose = walk.begins
         for index, row in enumerate(walk.rows):
             if row.depth == 0:
                 pose = await self._step(walk, index, pose, branch=False, instead=False)
 
     async def _step(
-        self, walk: _Walk, index: int, pose: Pose2, *, branch: bool, instead: bool
+        self, walk: _PlanCourse, index: int, pose: Pose2, *, branch: bool, instead: bool
     ) -> Pose2:
         """Rehearse a step with all that it holds; return where the robot would be then."""
         row = walk.rows[index]
@@ -232,7 +232,7 @@ class Rehearser:
         return end
 
     async def _leaf(
-        self, walk: _Walk, index: int, pose: Pose2, *, branch: bool, instead: bool
+        self, walk: _PlanCourse, index: int, pose: Pose2, *, branch: bool, instead: bool
     ) -> Pose2:
         row = walk.rows[index]
         if row.state in _DONE:
@@ -252,7 +252,7 @@ class Rehearser:
         return pose
 
     async def _legs(
-        self, walk: _Walk, row: StepRecord, pose: Pose2
+        self, walk: _PlanCourse, row: StepRecord, pose: Pose2
     ) -> tuple[dict[str, Any], Pose2]:
         """Return what the step's own legs come to, and where they end."""
         ways, done = _Ways(), 0.0
@@ -318,7 +318,7 @@ class Rehearser:
             began=began, done=0.0, part=0, accepted=accepted, eyes=book.eyes, sight=book.sight,
         )  # fmt: skip
 
-    def _told(self, walk: _Walk) -> Rehearsal:
+    def _sum_up(self, walk: _PlanCourse) -> Rehearsal:
         counted = [step for step in walk.found if not step.instead]
         narrow = [step.narrowest_m for step in counted if step.narrowest_m is not None]
         return Rehearsal(

@@ -123,7 +123,7 @@ class Hand:
             return None
         self._seq = frame.seq
         if not frame.held:
-            return self._released(now_s)
+            return self._take_release(now_s)
         if self.code is not None:
             return None  # until the page lets go
         if not now_s - self._beats.get(frame.beat, float("-inf")) <= CAUSAL_S:
@@ -145,7 +145,7 @@ class Hand:
         was_held, self._held = self._held, False
         return RELEASED if was_held else None
 
-    def _released(self, now_s: float) -> StickOrder | None:
+    def _take_release(self, now_s: float) -> StickOrder | None:
         self.code = None
         if not self._held and not now_s - self._told_s >= IDLE_APART_S:
             return None

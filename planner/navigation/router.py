@@ -150,14 +150,14 @@ class Router:
         # No way by what is remembered: then perhaps it is gone, and worth a look.
         hopeful = memory.hopeful_costmap(self._mapped).with_obstacles(seen, start_m)
         try:
-            return _hoped(self._find(hopeful, request, began_s, clock))
+            return _mark_hoped(self._find(hopeful, request, began_s, clock))
         except RouteFailure as failure:
             if request.obstacles or failure.code not in _CLOSED:
                 raise
         # A first way, and somebody stands in the only door: the robot drives up to it and waits
         # there (docs/adr/0041), instead of failing before it has tried.
         patient = memory.patient_costmap(self._mapped)
-        return _hoped(self._find(patient, request, began_s, clock))
+        return _mark_hoped(self._find(patient, request, began_s, clock))
 
     def _find(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
@@ -276,7 +276,7 @@ class Router:
         )
 
 
-def _hoped(found: RouteResult) -> RouteResult:
+def _mark_hoped(found: RouteResult) -> RouteResult:
     """Return a way with its survey told that it is open only by hope."""
     told = found.survey
     return found if told is None else replace(found, survey=replace(told, hoped=True))
