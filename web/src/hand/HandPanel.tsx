@@ -3,12 +3,12 @@ import { computed, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { t, word } from "../i18n";
 import { act } from "../state/acts";
-import { currentGoals, log, shown, shownStatus } from "../state/store";
+import { bridgeFresh, currentGoals, log, pageFresh, shown, shownStatus } from "../state/store";
 import { steady } from "../state/steady";
 import { inSetup } from "../state/trial";
 import { reasons } from "../panels/reasons";
 import { deflection, keysDeflection, steers } from "./inputs";
-import { callMyself, drop, hand, openStick, ownName, padName, share, take } from "./stick";
+import { callMyself, drop, hand, openStick, ownId, ownName, padName, share, take } from "./stick";
 
 const opened = signal(false);
 const SHARES = { slow: 0.4, middle: 0.7, full: 1 } as const;
@@ -20,7 +20,7 @@ export function HandPanel() {
       <details open={opened.value} onToggle={(event) => (opened.value = event.currentTarget.open)}>
         <summary>
           {t("hand.title")}
-          {driver !== null && !hand.value.driving && (
+          {driver !== null && (
             <span class="chip hand-driver" dir="auto">
               {othersWords(driver)}
             </span>
@@ -32,7 +32,11 @@ export function HandPanel() {
   );
 }
 
-const driverNow = steady(() => shown.value?.driver?.name ?? null);
+/** The name of another hand that drives, as far as that is known now. */
+const driverNow = steady(() => {
+  const driver = pageFresh.value && bridgeFresh.value ? (shown.value?.driver ?? null) : null;
+  return driver === null || driver.id === ownId.value ? null : driver.name;
+});
 
 const othersWords = (name: string): string =>
   name === "" ? t("hand.someone") : t("hand.other", { name });
@@ -44,9 +48,9 @@ function Stick() {
       <p class={`hand-state ${hand.value.driving ? "good" : ""}`} id="hand-state" role="status">
         {words()}
       </p>
+      <Knob />
       <Stands />
       <Goal />
-      <Knob />
       <p class="fine" id="hand-how">
         {t("hand.how")} {padName.value !== null && t("hand.pad")}
       </p>
@@ -135,19 +139,24 @@ function Speed() {
   );
 }
 
+/** Where a finger took the stick [px]: what the page shows above it meanwhile moves nothing. */
+type Finger = {
+  readonly id: number;
+  readonly x: number;
+  readonly y: number;
+  readonly way: number;
+};
+
 /** Hold and push it: by finger or mouse, by keys while it has the focus, or by a gamepad. */
 function Knob() {
-  const place = useRef<HTMLDivElement>(null);
-  const finger = useRef<number | null>(null);
+  const finger = useRef<Finger | null>(null);
   const down = useRef(new Set<string>());
   const asked = (event: PointerEvent) => {
-    const box = place.current?.getBoundingClientRect();
-    if (!box) return { forward: 0, left: 0 };
-    const right = event.clientX - box.left - box.width / 2;
-    return deflection(right, event.clientY - box.top - box.height / 2, box.width * 0.36);
+    const { x, y, way } = finger.current ?? { x: 0, y: 0, way: 0 };
+    return deflection(event.clientX - x, event.clientY - y, way);
   };
   const lift = (event: PointerEvent, end: () => void): void => {
-    if (finger.current !== event.pointerId) return;
+    if (finger.current?.id !== event.pointerId) return;
     finger.current = null;
     end();
   };
@@ -155,7 +164,6 @@ function Knob() {
   const { forward, left, held, driving } = hand.value;
   return (
     <div
-      ref={place}
       id="stick"
       class={`stick ${driving ? "drives" : held ? "held" : ""}`}
       role="application"
@@ -165,12 +173,14 @@ function Knob() {
       onContextMenu={(event) => event.preventDefault()} // a long press is no menu
       onPointerDown={(event) => {
         if (event.button !== 0 || finger.current !== null) return;
-        finger.current = event.pointerId;
+        const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
+        const [x, y] = [left + width / 2, top + height / 2];
+        finger.current = { id: event.pointerId, x, y, way: width * 0.36 };
         event.currentTarget.setPointerCapture(event.pointerId);
         take({ type: "press", source: "pointer", ...asked(event) });
       }}
       onPointerMove={(event) => {
-        if (finger.current === event.pointerId)
+        if (finger.current?.id === event.pointerId)
           take({ type: "steer", source: "pointer", ...asked(event) });
       }}
       onPointerUp={(event) => lift(event, release)}

@@ -17,6 +17,8 @@ export const padName = signal<string | null>(null);
 export const share = signal(0.4);
 
 const SLOT = "pons.name";
+/** By which the robot knows this page's hand. */
+export const ownId = signal<string | null>(null);
 export const ownName = signal("");
 
 let socket: WebSocket | null = null;
@@ -123,6 +125,7 @@ type Beat = { readonly kind?: unknown; readonly beat?: unknown; readonly [key: s
 function hear(data: unknown): void {
   const said = parsed(data);
   if (said?.kind !== "beat" || typeof said.beat !== "number") return;
+  if (typeof said.id === "string") ownId.value = said.id;
   const driver = said.driver as Driver | null;
   const by = driver === null ? null : driver.id === said.id ? "me" : "other";
   take({ type: "beat", beat: said.beat, by, code: (said.code as Why | null) ?? null });
