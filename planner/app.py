@@ -8,6 +8,7 @@ import os
 import signal
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -28,6 +29,7 @@ from planner.people import People
 from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of, picture_limits, spent_by
 from planner.plan_display import PlanDisplay
+from planner.rehearsal import Rehearser
 from planner.robot_service import LinkedRobot
 from planner.settings import list_keys, load_settings
 from planner.setup_switch import ProcessSwitch
@@ -130,6 +132,13 @@ class Planner:
         self._begin_memory()
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
         self.goals.loop.bound_search(picture_limits(self.settings), spent_by(self.budget))
+
+    @cached_property
+    def rehearser(self) -> Rehearser:
+        """Show plans before they move, by the route search of drives."""
+        where, ways = self.memory, self._router
+        book, points = lambda: self.goals.loop.book, self.robot.obstacles
+        return Rehearser(where, self.description, ways, book, points)
 
     @property
     def voice(self) -> VoiceAbilities:

@@ -20,6 +20,7 @@ class _EmptyServices:
     """Stand where services would: the contract is read, no route is called."""
 
     goals = None
+    rehearser = None
     robot = None
     ears = None
     fences = None

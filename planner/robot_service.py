@@ -12,6 +12,7 @@ from wire import (
     FenceRequest,
     HintVerdict,
     LocalizerStatus,
+    Mode,
     OpKind,
     OpRequest,
     PoseHint,
@@ -31,6 +32,8 @@ log = logging.getLogger(__name__)
 TRIAL_S = 1.0
 """Set-up speaks ten times a second."""
 ORDERED_S, ORDERED_GAP_S = 2.0, 0.05
+MOST_HANDS = 16
+"""Whose names are known; the bridge itself remembers eight hands."""
 LOCALIZER_S = 2.0
 """It speaks five times a second; what is older says nothing of now."""
 
@@ -42,6 +45,7 @@ class LinkedRobot:
         self._link = link
         self.description = description
         self._steered: tuple[str, int] = ("", 0)
+        self._names: dict[str, str] = {}
 
     @property
     def status(self) -> Status | None:
@@ -120,11 +124,34 @@ class LinkedRobot:
             log.warning("fence: %s", silence)
             return None
 
-    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:
-        """Relay a velocity by hand under the newest epoch; without a status nothing is said."""
+    @property
+    def driver(self) -> dict[str, str] | None:
+        """Return whose hand steers now, as the bridge says, with the name that came with it."""
+        status = self.status
+        if status is None or status.mode is not Mode.TELEOP or status.held is None:
+            return None
+        source = status.held.id
+        return {"id": source, "name": self._names.get(source, "")}
+
+    def steer(
+        self, source: str, v_mps: float, w_radps: float, *, dead_man: bool, name: str = ""
+    ) -> None:
+        """Relay a velocity by hand under the newest epoch; without a status nothing is said.
+
+        Args:
+            source: the hand, by which the bridge tells one from another.
+            v_mps: forward.
+            w_radps: to the left.
+            dead_man: the stick is held.
+            name: who holds it, for people.
+        """
         status = self.status
         if status is None:
             return
+        self._names.pop(source, None)
+        self._names[source] = name
+        while len(self._names) > MOST_HANDS:
+            del self._names[next(iter(self._names))]
         epoch, seq = self._steered
         seq = seq + 1 if epoch == status.epoch else 0
         self._steered = (status.epoch, seq)

@@ -39,8 +39,9 @@ TYPED_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
 """The methods that change something; no route takes any other, and the router says so (405)."""
 STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 """Whoever may look may also stop, and needs no content type to do it."""
-OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?")
-"""What a viewer may not even read: people's words and words out of pictures may stand in it."""
+OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?|/v1/hand/?")
+"""What a viewer may not even read: people's words and words out of pictures may stand in it. Nor
+may one open the socket of a hand on the stick."""
 PEOPLE_PATH = "/v1/people"
 """The owner's to change: who could add people could add a way in that outlives a removal."""
 

@@ -12,6 +12,7 @@ from planner.api import (
     error_schema,
     fence,
     goals,
+    hand,
     health,
     history,
     live_voice,
@@ -24,6 +25,7 @@ from planner.api import (
     pictures,
     places,
     problems,
+    rehearsals,
     robot,
     setup,
     static_files,
@@ -45,8 +47,9 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, voice, live_voice, operator, setup, robot, orders, places, localization, objects, memory,
-    pictures, camera, fence, people, usage, history, health, websocket,
+    goals, rehearsals, voice, live_voice, operator, hand, setup, robot, orders, places,
+    localization, objects, memory, pictures, camera, fence, people, usage, history, health,
+    websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

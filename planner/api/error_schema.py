@@ -41,6 +41,8 @@ OWN_PROBLEMS: dict[str, tuple[int, ...]] = {
     "reject_fence": (409,),
     "propose_fence": (409,),
     "give_goal": (*_MISSION, 429),
+    "rehearse": (404, 409),
+    "teleop": (409,),
     "give_spoken_goal": (*_MISSION, 400, 429),
     "answer_goal": _MISSION,
     "cancel_goal": _MISSION,

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from planner.people import People
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language
+    from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
@@ -141,7 +142,12 @@ class Robot(Protocol):
 
     async def offer_fence(self, request: FenceRequest) -> Answer | None: ...
 
-    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
+    @property
+    def driver(self) -> dict[str, str] | None: ...
+
+    def steer(
+        self, source: str, v_mps: float, w_radps: float, *, dead_man: bool, name: str = ""
+    ) -> None: ...
 
 
 class Budget(Protocol):
@@ -208,6 +214,9 @@ class Services(Protocol):
 
     @property
     def goals(self) -> Goals: ...
+
+    @property
+    def rehearser(self) -> Rehearser: ...
 
     @property
     def robot(self) -> Robot: ...

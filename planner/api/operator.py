@@ -7,6 +7,7 @@ on metal a proof comes from the person's CLI or page and is relayed as it is.
 from __future__ import annotations
 
 import asyncio
+import re
 import secrets
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
 
+from planner.api.hand import is_taken
 from planner.api.interfaces import Robot, Services
 from planner.api.people import source_of
 from planner.api.problems import HttpProblem
@@ -83,10 +85,23 @@ def _powering(router: APIRouter, robot: Robot) -> None:
         return await act(robot, "resume", order, by=request)
 
     @router.post("/teleop", operation_id="teleop", status_code=202)
-    async def teleop(steer: Steer) -> dict[str, Any]:
-        """Steer by hand while the dead-man is held; send at 20 Hz."""
-        robot.steer(steer.source, steer.v_mps, steer.w_radps, dead_man=steer.dead_man)
+    async def teleop(steer: Steer, request: Request) -> dict[str, Any]:
+        """Steer by hand while the dead-man is held; send at 20 Hz.
+
+        Raises:
+            HttpProblem: ``hand_taken`` where another hand steers.
+        """
+        source = source_of(request, steer.source)
+        hand = hand_at(source, request.client.host if request.client else "")
+        if steer.dead_man and is_taken(robot, hand):
+            raise HttpProblem(409, "hand_taken", "another hand steers the robot now")
+        robot.steer(hand, steer.v_mps, steer.w_radps, dead_man=steer.dead_man, name=source)
         return {"mode": robot.status.mode if robot.status else None}
+
+
+def hand_at(source: str, address: str) -> str:
+    """Return the hand's own id: two machines that give the same source are two hands."""
+    return f"{source}:{re.sub(r'[^A-Za-z0-9_.:-]', '-', address)}"[:64]
 
 
 async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None, *, by: Request) -> Answer:

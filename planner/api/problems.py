@@ -63,6 +63,7 @@ SAYINGS = {
     "foreign_origin": say("problem.foreign_origin"),
     "proxy_without_token": say("problem.proxy_without_token"),
     "goal_too_long": say("problem.goal_too_long"),
+    "hand_taken": say("problem.hand_taken"),
     "too_many_goals": say("problem.too_many_goals"),
     "too_many_sockets": say("problem.too_many_sockets"),
     "headers_too_large": say("problem.headers_too_large"),

@@ -67,6 +67,7 @@ def robot_view(services: Services) -> dict[str, Any]:
         "localizer": services.robot.localizer.state if services.robot.localizer else None,
         "localizer_trouble": trouble_view(services),
         "match": match_view(services),
+        "driver": services.robot.driver,
         "setup": setup_view(services),
         "brain": mind_of(services.brain).model_dump(mode="json"),
     }

@@ -16,6 +16,7 @@ from planner.navigation.route import (
     RoutePoint,
     RouteRequest,
     RouteResult,
+    RouteSurvey,
     ScanObservation,
 )
 
@@ -30,6 +31,7 @@ __all__ = [
     "RoutePoint",
     "RouteRequest",
     "RouteResult",
+    "RouteSurvey",
     "RouteWorker",
     "ScanObservation",
     "cut",

@@ -14,6 +14,7 @@ from planner.navigation.route import (
     RoutePoint,
     RouteRequest,
     RouteResult,
+    RouteSurvey,
     ScanObservation,
 )
 from processes.worker_protocol import Frame
@@ -25,7 +26,9 @@ def read_request(frame: Frame) -> RouteRequest:
     head, _ = frame
     start, goal = Pose2(**head["start"]), Pose2(**head["goal"])
     obstacles = tuple((float(x_m), float(y_m)) for x_m, y_m in head["obstacles"])
-    kinds = {name: bool(head[name]) for name in ("straight", "aside", "strict", "explore")}
+    kinds = {
+        name: bool(head[name]) for name in ("straight", "aside", "strict", "explore", "survey")
+    }
     return RouteRequest(
         start,
         goal,
@@ -54,6 +57,19 @@ def read_result(frame: Frame) -> RouteResult:
         took_s=float(head["took_s"]),
         floor=_read_floor(head["floor"]),
         faces=_read_point(head["faces"]),
+        survey=_read_survey(head["survey"]),
+    )
+
+
+def _read_survey(head: dict[str, Any] | None) -> RouteSurvey | None:
+    if head is None:
+        return None
+    narrowest_m = head["narrowest_m"]
+    return RouteSurvey(
+        narrowest_m=None if narrowest_m is None else float(narrowest_m),
+        narrowest_at=_read_point(head["narrowest_at"]),
+        suspect_m=float(head["suspect_m"]),
+        hoped=bool(head["hoped"]),
     )
 
 

@@ -69,6 +69,7 @@ class RouteRequest:
     explore: bool = False  # go where the map's next frontier is seen from; the goal means nothing
     sees: tuple[float, float] | None = None  # the end is to see this point of the map, and face it
     sees_from_m: float = 0.0  # and to stand no nearer to it
+    survey: bool = False  # measure how narrow the way gets, for a person to read
 
 
 MIN_SPEED_MPS = 0.05
@@ -96,6 +97,16 @@ class FloorReport:
 
 
 @dataclass(frozen=True, slots=True)
+class RouteSurvey:
+    """Say how narrow a way gets, and what of it is not known."""
+
+    narrowest_m: float | None  # from thing to thing across the way; None: over 1.5 m everywhere
+    narrowest_at: tuple[float, float] | None
+    suspect_m: float  # of it leads through what may still stand there
+    hoped: bool = False  # it is open only if something that was seen has gone
+
+
+@dataclass(frozen=True, slots=True)
 class RouteResult:
     """Hold a route: from where the robot stood to the goal, or to the nearest free floor."""
 
@@ -106,6 +117,7 @@ class RouteResult:
     took_s: float  # in the search itself
     floor: FloorReport | None = None  # to a request to explore
     faces: tuple[float, float] | None = None  # what the end sees, and is to face
+    survey: RouteSurvey | None = None  # where it was asked for
 
 
 @dataclass(frozen=True, slots=True)

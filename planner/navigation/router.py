@@ -36,6 +36,7 @@ from planner.navigation.search import costs_in_slices, costs_to
 from planner.navigation.smoothing import Line, densify, is_free, relax, straighten
 from planner.navigation.start_and_goal import Cell, Ends, choose_ends, choose_start, moved_m
 from planner.navigation.straight_line import BACK_MPS, backwards, straight_line
+from planner.navigation.way_survey import survey
 from planner.navigation.waypoints import evenly, speeds, thin
 from planner.site import Site
 from wire import Pose2
@@ -149,13 +150,14 @@ class Router:
         # No way by what is remembered: then perhaps it is gone, and worth a look.
         hopeful = memory.hopeful_costmap(self._mapped).with_obstacles(seen, start_m)
         try:
-            return self._find(hopeful, request, began_s, clock)
+            return _mark_hoped(self._find(hopeful, request, began_s, clock))
         except RouteFailure as failure:
             if request.obstacles or failure.code not in _CLOSED:
                 raise
         # A first way, and somebody stands in the only door: the robot drives up to it and waits
         # there (docs/adr/0041), instead of failing before it has tried.
-        return self._find(memory.patient_costmap(self._mapped), request, began_s, clock)
+        patient = memory.patient_costmap(self._mapped)
+        return _mark_hoped(self._find(patient, request, began_s, clock))
 
     def _find(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]
@@ -171,6 +173,7 @@ class Router:
             start_escaped=ends.start_escaped,
             took_s=clock() - began_s,
             faces=ends.faces_m,
+            survey=survey(costmap, line) if request.survey else None,
         )
 
     def _explore(
@@ -226,6 +229,7 @@ class Router:
             moved_goal_m=float(hypot(*(goal_m - line[-1]))),
             start_escaped=False,
             took_s=clock() - began_s,
+            survey=survey(costmap, line) if request.survey else None,
         )
 
     def _line(self, costmap: Costmap, request: RouteRequest, ends: Ends) -> Line:
@@ -270,6 +274,12 @@ class Router:
             RoutePoint(x_m, y_m, speed_mps)
             for (x_m, y_m), speed_mps in zip(line.tolist(), wanted.tolist(), strict=True)
         )
+
+
+def _mark_hoped(found: RouteResult) -> RouteResult:
+    """Return a way with its survey told that it is open only by hope."""
+    told = found.survey
+    return found if told is None else replace(found, survey=replace(told, hoped=True))
 
 
 def _way_elsewhere(costmap: Costmap, start: Cell) -> Callable[[Cell], float]:

@@ -191,7 +191,8 @@ class PlannerProcess:
             clock=self._tasks.time,
             new_id=self._new_id,
         )
-        router = PacedRouter(_routers(scene), pace.route * TICK_S, scene.router.new_memory())
+        self.obstacle_memory = scene.router.new_memory()
+        router = PacedRouter(_routers(scene), pace.route * TICK_S, self.obstacle_memory)
         self.missions = Missions(
             site=scene.site,
             robot=scene.robot,
@@ -220,6 +221,11 @@ class PlannerProcess:
     def waits(self) -> bool:
         """Tell whether a route, a plan, the disk or an answer is still to come."""
         return self._tasks.busy
+
+    @property
+    def link(self) -> Link:
+        """Return the planner's way to the bridge."""
+        return self._link
 
     def think_with(self, brain: Brain) -> None:
         """Let this brain turn sentences into plans."""

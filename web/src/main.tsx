@@ -10,6 +10,8 @@ import "./styles/eyes.css";
 import "./styles/people.css";
 import "./styles/missions.css";
 import "./styles/talk.css";
+import "./styles/hand.css";
+import "./styles/rehearsal.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";
@@ -35,6 +37,7 @@ import {
   wantsSnapshot,
 } from "./state/store";
 import { startTheme } from "./state/theme";
+import { startRehearsals } from "./rehearse/rehearsal";
 import { startVisible } from "./state/visible";
 import { listen } from "./stop/keys";
 import { startStopper, stop } from "./stop/stopper";
@@ -66,6 +69,7 @@ startVisible();
 startAloud();
 startCamera();
 startClock();
+startRehearsals();
 effect(() => {
   if (wantsSnapshot.value) socket.send({ snapshot: true });
 });

@@ -36,6 +36,7 @@ export const robot: Robot = {
   localizer: "tracking",
   localizer_trouble: null,
   match: { score: 0.93, candidates: [] },
+  driver: null,
   setup: { is_there: false, trial: null },
   brain: { name: "offline", breaker: null, rests_s: 0, last_error: null },
 };

@@ -18,10 +18,19 @@ from planner.memory import MemoryStore, Recollection
 from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.mission.goal_history import GoalHistory
-from planner.navigation import ObstacleReport
+from planner.mission.state import MissionState
+from planner.navigation import (
+    ObstacleReport,
+    RouteFailure,
+    RoutePoint,
+    RouteRequest,
+    RouteResult,
+    RouteSurvey,
+)
 from planner.people import People
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language
+from planner.rehearsal import Rehearser
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.state_database import StateDatabase
@@ -165,6 +174,7 @@ class FakeRobot:
         self.takes_hints = True
         self.localized_map: str | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
+        self.driver: dict[str, str] | None = None
         self.points: list[tuple[float, float]] = []
         self.trial: TrialState | None = None
         self.trial_orders: list[TrialOrder] = []
@@ -204,7 +214,9 @@ class FakeRobot:
         self.offered.append(request)
         return self.verdict
 
-    def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:
+    def steer(
+        self, source: str, v_mps: float, w_radps: float, *, dead_man: bool, name: str = ""
+    ) -> None:
         self.steers.append((source, v_mps, w_radps, dead_man))
 
 
@@ -305,6 +317,18 @@ def two_room() -> Site:
     return Site.load(ROOT / "sites" / "two_room")
 
 
+class StraightRoutes:
+    """Find a straight way everywhere but into the kitchen."""
+
+    async def route(self, request: RouteRequest) -> RouteResult:
+        kitchen = two_room().place("kitchen")
+        if kitchen is not None and request.goal == kitchen.pose:
+            raise RouteFailure("no_route", "a test shut the kitchen")
+        ends = [RoutePoint(p.x_m, p.y_m, 0.5) for p in (request.start, request.goal)]
+        survey = RouteSurvey(0.84, (1.0, 1.0), 0.0) if request.survey else None
+        return RouteResult(tuple(ends), 2.0, 0.0, False, 0.0, survey=survey)
+
+
 class FakeServices:
     """Hold one of each."""
 
@@ -325,5 +349,11 @@ class FakeServices:
         self.recollection = Recollection(MemoryStore(StateDatabase(Path("/nowhere"))))
         self.people = People(StateDatabase(Path("/nowhere")))
         self.fences = FenceProposals.in_home(Path("/nowhere"))
+        self.rehearser = Rehearser(
+            self.memory,
+            RobotDescription(),
+            StraightRoutes(),
+            lambda: MissionState(self.memory.facts, status=self.robot.status),
+        )
         clock = MovedClocks()
         self.orders = standing_orders(Path("/nowhere"), clock, FakeMissions(clock, "two_room"))

@@ -301,9 +301,26 @@ def test_without_a_bridge_nothing_is_signed() -> None:
 def test_teleop_is_passed_on_within_bounds(client: TestClient, services: FakeServices) -> None:
     body = {"source": "page-1", "v_mps": 0.2, "w_radps": -0.1, "dead_man": True}
     assert client.post("/v1/teleop", json=body).status_code == 202
-    assert services.robot.steers == [("page-1", 0.2, -0.1, True)]
+    (source, *speeds), *_ = services.robot.steers
+    assert source.startswith("page-1:"), "two machines that say the same are two hands"
+    assert speeds == [0.2, -0.1, True]
     too_fast = client.post("/v1/teleop", json={**body, "v_mps": 1e6})
     assert code(too_fast) == "invalid_request"
+
+
+def test_a_hand_that_posts_is_told_that_another_steers(
+    client: TestClient, services: FakeServices
+) -> None:
+    body = {"source": "pad", "v_mps": 0.2, "w_radps": 0.0, "dead_man": True}
+    services.robot.driver = {"id": "pad:elsewhere", "name": "pad"}
+    answer = client.post("/v1/teleop", json=body)
+    assert (answer.status_code, code(answer)) == (409, "hand_taken")
+    assert answer.json()["message"]["zh"]
+    assert services.robot.steers == []
+    assert client.post("/v1/teleop", json={**body, "dead_man": False}).status_code == 202
+    services.robot.driver = {"id": services.robot.steers[0][0], "name": "pad"}
+    assert client.post("/v1/teleop", json=body).status_code == 202
+    assert client.get("/v1/robot").json()["driver"] == services.robot.driver
 
 
 def test_the_robot_says_who_plans(client: TestClient, services: FakeServices) -> None:

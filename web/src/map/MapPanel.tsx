@@ -6,6 +6,7 @@ import { orderTo } from "../eyes/words";
 import { say, t } from "../i18n";
 import { seconds } from "../panels/format";
 import { toTeaching } from "../panels/Tabs";
+import { followGhost } from "../rehearse/ghost";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
 import { picked, picking, pointAsked } from "../state/picking";
@@ -99,6 +100,7 @@ function follow(view: MapView): (() => void)[] {
     effect(() => drawing.showPicked(picked.value)),
     effect(() => view.showPicking(picking.value || pointAsked.value !== null)),
     effect(() => drawing.showPath(path.value)),
+    followGhost(drawing),
     effect(() => view.showGuesses(candidates.value)),
     effect(() => drawing.greyPath(!pageFresh.value)),
     effect(() => seen(() => drawing.showScan(isShown("scan") ? scanNow.value : []))),

@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { say, t } from "../i18n";
 import { give, said } from "../state/acts";
+import { ShowFirst } from "../rehearse/RehearsalPanel";
 import { isBusy, places } from "../state/store";
 import { Aloud, Talk } from "../talk/Talk";
 
@@ -57,6 +58,7 @@ export function GoalBox() {
             {isBusy.value ? t("goal.queue") : t("goal.send")}
           </button>
         </div>
+        <ShowFirst text={text.value.trim()} />
         {isBusy.value && text.value.trim() !== "" && (
           <button type="button" class="instead" onClick={() => void send(true)}>
             {t("goal.replace")}

@@ -122,6 +122,8 @@ const isSetup = (value: unknown): boolean =>
 const isTrouble = (value: unknown): boolean =>
   bag(value) && text(value.code) && words(value.message);
 
+const isDriver = (value: unknown): boolean => bag(value) && text(value.id) && text(value.name);
+
 function isRobot(value: unknown): value is Robot {
   return (
     bag(value) &&
@@ -133,6 +135,7 @@ function isRobot(value: unknown): value is Robot {
     textOrNull(value.localizer) &&
     (value.localizer_trouble === null || isTrouble(value.localizer_trouble)) &&
     (value.match === null || isMatch(value.match)) &&
+    (value.driver === null || isDriver(value.driver)) &&
     isSetup(value.setup) &&
     bag(value.ages_s) &&
     Object.values(value.ages_s).every(finiteOrNull)

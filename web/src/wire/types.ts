@@ -128,6 +128,8 @@ export type Robot = {
   /** Why it has no pose and what helps, where it knows that. */
   readonly localizer_trouble: { readonly code: string; readonly message: Bilingual } | null;
   readonly match: Match | null;
+  /** Whose hand steers now. */
+  readonly driver: { readonly id: string; readonly name: string } | null;
   readonly setup: Setup;
   readonly brain: Mind;
 };

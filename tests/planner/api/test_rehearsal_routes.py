@@ -1,0 +1,56 @@
+"""A rehearsal over HTTP moves nothing, makes no goal, and says why there is none to show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from starlette.testclient import TestClient
+
+from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
+from tests.planner.api.test_routes import FREE, code
+
+
+@pytest.fixture
+def services() -> FakeServices:
+    return FakeServices(FREE)
+
+
+@pytest.fixture
+def client(services: FakeServices) -> Iterator[TestClient]:
+    with client_of(services) as made:
+        yield made
+
+
+def test_a_sentence_is_shown_and_nothing_is_done(
+    client: TestClient, services: FakeServices
+) -> None:
+    answer = client.post("/v1/rehearsals", json={"text": "go to the living room"})
+    assert answer.status_code == 200
+    told = answer.json()
+    assert told["steps"][0]["name"]["en"] == "living room"
+    assert told["narrowest_m"] == 0.84
+    assert (services.goals.calls, services.robot.asked, services.robot.steers) == ([], [], [])
+
+
+@pytest.mark.parametrize("text", ["hello", "stop", "where are you?"])
+def test_what_moves_nothing_has_no_rehearsal(client: TestClient, text: str) -> None:
+    answer = client.post("/v1/rehearsals", json={"text": text})
+    assert (answer.status_code, code(answer)) == (409, "rehearsal_no_plan")
+    assert answer.json()["message"]["zh"]
+
+
+def test_a_goal_that_is_not_there_or_has_no_plan(client: TestClient) -> None:
+    assert client.post("/v1/rehearsals", json={"goal": "g7"}).status_code == 404
+    assert code(client.post("/v1/rehearsals", json={"goal": "g1"})) == "rehearsal_no_plan"
+
+
+@pytest.mark.parametrize("body", [{}, {"text": "go home", "goal": "g1"}, {"text": "x" * 5_000}])
+def test_one_of_sentence_and_goal(client: TestClient, body: dict[str, str]) -> None:
+    assert client.post("/v1/rehearsals", json=body).status_code == 422
+
+
+def test_without_a_bridge_there_is_no_way_to_show() -> None:
+    answer = client_of(FakeServices(None)).post("/v1/rehearsals", json={"text": "go home"})
+    assert (answer.status_code, code(answer)) == (409, "rehearsal_without_pose")
