@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from planner.navigation import ObstacleReport
     from planner.orders.factory import StandingOrders
     from planner.perception import Picture, Sight, Thing
-    from planner.plan import Goal, Language
+    from planner.plan import Goal, GoToPose, Language
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
@@ -49,6 +49,23 @@ class LayerSource(Protocol):
     def report(self) -> ObstacleReport | None: ...
 
 
+class PointIntake(Protocol):
+    """Take goals by points of the map."""
+
+    async def give(
+        self,
+        points: tuple[GoToPose, ...],
+        *,
+        language: Language,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        act: OpRequest | None = None,
+    ) -> str:
+        """Take a goal in and return its id; raises MissionError with a stable code."""
+        ...
+
+
 class Goals(Protocol):
     """Keep goals; each method answers at once and raises MissionError with a stable code.
 
@@ -68,6 +85,9 @@ class Goals(Protocol):
 
     @property
     def obstacles(self) -> LayerSource | None: ...
+
+    @property
+    def points(self) -> PointIntake: ...
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, with any other meaning besides."""

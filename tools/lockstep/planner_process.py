@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from planner.navigation import ObstacleReport, RouteRequest, RouteResult, ScanObservation
     from planner.navigation.obstacle_memory import ObstacleMemory
     from planner.navigation.router import Router
-    from planner.plan import BrainTag, Language
+    from planner.plan import BrainTag, GoToPose, Language
     from sim import SimRobot
     from tools.lockstep.bus import Port
     from tools.lockstep.eyes import PerceptionProcess
@@ -271,6 +271,10 @@ class PlannerProcess:
         """
         act = self._act_behind(text)
         self.run(now_s, self.missions.submit(text, language=language, act=act))
+
+    def go(self, points: tuple[GoToPose, ...], now_s: float) -> None:
+        """Take points of the map by the planner's own door, with a person's act."""
+        self.run(now_s, self.missions.points.give(points, act=self._sign("resume")))
 
     def answer(self, goal_id: str, text: str, now_s: float) -> None:
         """Take the answer to a goal's question. Raises MissionError where it takes none."""

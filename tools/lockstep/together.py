@@ -15,7 +15,7 @@ from wire import Mode
 if TYPE_CHECKING:
     from planner.brain import Brain
     from planner.brain.image_questions import Looker
-    from planner.plan import Language
+    from planner.plan import GoToPose, Language
     from tools.lockstep.disturbance import Disturbance
     from tools.lockstep.planner_process import Request
     from tools.lockstep.truth_detector import Finder
@@ -46,6 +46,11 @@ class LockstepWorld(World):
     def say(self, text: str, language: Language | None = None) -> GoalHandle:
         """Give a goal in words."""
         self.planner.say(text, language, self.now_s)
+        return self.goal(f"goal-{self._goals}")
+
+    def go(self, *points: GoToPose) -> GoalHandle:
+        """Give a goal by points of the map, in a row."""
+        self.planner.go(points, self.now_s)
         return self.goal(f"goal-{self._goals}")
 
     def goal(self, goal_id: str) -> GoalHandle:

@@ -19,7 +19,7 @@ from planner.mission import Leg
 from planner.mission.errors import BadState, UnknownGoal
 from planner.navigation import ObstacleReport
 from planner.perception import Picture, Sight, Thing
-from planner.plan import Goal, GoalState, Language
+from planner.plan import Goal, GoalState, GoToPose, Language
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.state_database import StateDatabase
@@ -74,6 +74,24 @@ class FakeGoals:
         self.stops: list[str] = []
         self.leg: Leg | None = None
         self.asks = False
+
+    @property
+    def points(self) -> FakeGoals:
+        return self
+
+    async def give(
+        self,
+        points: tuple[GoToPose, ...],
+        *,
+        language: Language,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        act: OpRequest | None = None,
+    ) -> str:
+        self.calls.append(("give", points, language, confirm, replace, idempotency_key))
+        self.acts.append(act)
+        return "g1"
 
     def hears_stop(self, text: str) -> bool:
         return is_stop(text)

@@ -171,6 +171,9 @@ export type Step = {
   readonly times: number | null; // rounds of a repeat, at most
   readonly round: number; // which of them runs, or was the last
   readonly holds: boolean | null; // of a condition: what it came to
+  readonly look?: boolean; // a point is faced from near by
+  readonly x_m?: number | null; // a point of the map that a person gave [m]
+  readonly y_m?: number | null;
   readonly side?: string | null; // of a place or thing, at which to stand
   readonly word: string | null;
   readonly time: string | null;
