@@ -12,6 +12,7 @@ from wire import (
     FenceRequest,
     HintVerdict,
     LocalizerStatus,
+    MarksRequest,
     OpKind,
     OpRequest,
     PoseHint,
@@ -118,6 +119,14 @@ class LinkedRobot:
             return await self._link.offer_fence(request)
         except BridgeSilent as silence:
             log.warning("fence: %s", silence)
+            return None
+
+    async def offer_marks(self, request: MarksRequest) -> Answer | None:
+        """Return the bridge's verdict on an operator's marks, or None where it stayed silent."""
+        try:
+            return await self._link.offer_marks(request)
+        except BridgeSilent as silence:
+            log.warning("marks: %s", silence)
             return None
 
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None:

@@ -15,6 +15,7 @@ from planner.api import (
     health,
     live_voice,
     localization,
+    marks,
     memory,
     objects,
     operator,
@@ -44,7 +45,7 @@ if TYPE_CHECKING:
 
 _PARTS = (
     goals, voice, live_voice, operator, setup, robot, orders, places, localization, objects, memory,
-    pictures, camera, fence, usage, health, websocket,
+    pictures, camera, fence, marks, usage, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

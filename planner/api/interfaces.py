@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         FenceRequest,
         HintVerdict,
         LocalizerStatus,
+        MarksRequest,
         OpKind,
         OpRequest,
         PoseHint,
@@ -152,6 +153,8 @@ class Robot(Protocol):
     async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None: ...
 
     async def offer_fence(self, request: FenceRequest) -> Answer | None: ...
+
+    async def offer_marks(self, request: MarksRequest) -> Answer | None: ...
 
     def steer(self, source: str, v_mps: float, w_radps: float, *, dead_man: bool) -> None: ...
 

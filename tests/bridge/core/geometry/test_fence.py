@@ -87,7 +87,7 @@ def test_no_number_raises_and_none_is_let_in(x: float, y: float) -> None:
     assert not allowed or (0 <= x <= 6 and 0 <= y <= 4)
     assert allowed or ROOM.margin_m(x, y) <= 0
     assert ROOM.crosses(x, y, y, x) in (True, False)
-    assert ROOM.max_speed_mps(x, y) is None
+    assert ROOM.zones_near(x, y) == []
 
 
 def _text(**change: object) -> bytes:
@@ -107,7 +107,7 @@ def test_a_file_becomes_a_fence_and_its_hash(tmp_path: Path) -> None:
     path.write_bytes(_text(speed_zones=[zone]))
     fence, digest = load_fence(path)
     assert fence.map_id == MAP
-    assert fence.max_speed_mps(0.8, 0.1) == 0.2
+    assert fence.zones_near(0.8, 0.1) == [(0.0, 0.2)]
     assert digest == fingerprint(path.read_bytes())
 
 
