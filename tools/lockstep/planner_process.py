@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     from planner.navigation import ObstacleReport, RouteRequest, RouteResult, ScanObservation
     from planner.navigation.obstacle_memory import ObstacleMemory
     from planner.plan import BrainTag, GoToPose, Language
-    from planner.site import Site
+    from planner.site import KnownPlaces
     from sim import SimRobot
     from tools.lockstep.bus import Port
     from tools.lockstep.eyes import PerceptionProcess
@@ -155,12 +155,13 @@ class MarkedRouter:
 
     def __init__(self, scene: LockstepScene) -> None:
         self._scene, self._router = scene, scene.router
-        self.drawn: Callable[[], Site] = lambda: scene.site
+        self.places: KnownPlaces | None = None
+        """Of the planner; no closure, which a copy of the world would not take along."""
         self._fence = scene.site.fence
 
     def __call__(self) -> Router:
         """Return the router of now."""
-        site = self.drawn()
+        site = self.places.site if self.places is not None else self._scene.site
         if site.fence.record != self._fence.record:
             self._router, self._fence = Router(site, RouteLimits.of(self._scene.robot)), site.fence
         return self._router
@@ -230,7 +231,7 @@ class PlannerProcess:
             clocks=Clocks(self._tasks.time, self._wall_s, new_goal_id),
         )
         if isinstance(newest, MarkedRouter):
-            newest.drawn = lambda: self.missions.memory.site
+            newest.places = self.missions.memory
         self.missions.show_scans(router)
         self.missions.loop.hub.join(self)
         self.run(now_s, self.missions.start(rounds=False))

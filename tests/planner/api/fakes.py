@@ -32,6 +32,7 @@ from wire import (
     HintCode,
     HintVerdict,
     LocalizerStatus,
+    MarksRequest,
     OpKind,
     OpRequest,
     PoseHint,
@@ -167,6 +168,7 @@ class FakeRobot:
         self._status = status
         self.asked: list[tuple[OpKind, OpRequest]] = []
         self.offered: list[FenceRequest] = []
+        self.drawn: list[MarksRequest] = []
         self.hints: list[PoseHint] = []
         self.hint_code: HintCode | None = "accepted"
         self.hint_score = 0.4
@@ -207,6 +209,10 @@ class FakeRobot:
 
     async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None:
         self.asked.append((kind, request))
+        return self.verdict
+
+    async def offer_marks(self, request: MarksRequest) -> Answer | None:
+        self.drawn.append(request)
         return self.verdict
 
     async def offer_fence(self, request: FenceRequest) -> Answer | None:

@@ -198,3 +198,28 @@ def test_a_square_on_the_boundary_answers_point_by_point() -> None:
     for x, inside, edges in ((0.18, True, 1), (-0.18, False, 1), (1.17, True, 1), (1.18, True, 0)):
         cell = fences._cell_at(x, 0.0, 0.25, (line(0, -9, 0, 9),), (oblong(0, -9, 9, 9),), ())
         assert (cell.inside, len(cell.edges)) == (inside, edges)
+
+
+def test_marks_take_away_from_a_fence_and_are_prepared_once() -> None:
+    square = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
+    fence = build_fence("m", (square,))
+
+    def text(x: float) -> str:
+        corners = f"[[{x},1],[{x + 1},1],[{x + 1},2],[{x},2]]"
+        zone = f'{{"polygon":{corners},"max_speed_mps":0.2}}'
+        head = '"version":1,"map_id":"0123456789abcdef"'
+        return f'{{{head},"keep_outs":[{corners}],"speed_zones":[{zone}]}}'
+
+    marked = fence.with_marks(text(1.0))
+    assert fence.allows(1.5, 1.5)
+    assert not marked.allows(1.5, 1.5)
+    assert marked.margin_m(0.5, 1.5) == pytest.approx(0.5)
+    ((gap_m, speed_mps),) = marked.zones_near(0.5, 1.5)
+    assert (gap_m, speed_mps) == pytest.approx((0.5, 0.2))
+    assert marked.zones_near(1.5, 1.5) == [(0.0, 0.2)]
+    assert marked.zones_near(3.9, 3.9) == []
+    assert fence.with_marks(text(1.0)) is marked
+    for step in range(20):
+        fence.with_marks(text(1.0 + 0.01 * step))
+    assert len(fence.marked) <= 8
+    assert fence.with_marks(text(1.0)) == marked
