@@ -46,6 +46,7 @@ export type Status = {
   readonly mode: string;
   readonly epoch: string;
   readonly nonce: string;
+  readonly marks_hash?: string | null; // of what people drew on the map, as the bridge holds it
   readonly owner: { readonly planner_id: string; readonly kind: string } | null;
   readonly held: { readonly reason: string; readonly id: string } | null;
   readonly base_in_map: Pose | null;
