@@ -64,7 +64,8 @@ export function startPointing(): () => void {
     effect(() => {
       const now = status.value;
       if (now?.mode === "ACTIVE") {
-        pace.value += PACE_SHARE * (Math.abs(now.measured.v_mps) - pace.peek());
+        const before = pace.peek();
+        pace.value = before + PACE_SHARE * (Math.abs(now.measured.v_mps) - before);
       }
     }),
     effect(() => {
