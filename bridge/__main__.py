@@ -22,6 +22,7 @@ from bridge.drive import Ros2Drive, SimDrive, open_serial_drive, require_brakes
 from bridge.fence_file import load_fence
 from bridge.fence_update import FenceDesk, Ground
 from bridge.link import BridgeLink
+from bridge.marks_update import MarksDesk, Paper, load_marks, marks_path
 from bridge.node import EXIT_LEFT, BridgeNode, Parts
 from bridge.operator_key import load_operator_key
 from bridge.realtime import (
@@ -96,13 +97,15 @@ def _serve(options: argparse.Namespace) -> int:
         recorder = Recorder(home.absolute() / "recordings", config)
         keeper = BrakingKeeper(path_of(home, robot), robot, config.learnt)
         desk = FenceDesk(Ground(options.site, home, config.map_id, config.fence_hash))
-        parts = Parts(link, drive, recorder, SlackCollector(), Service(), keeper, desk)
+        drawn = MarksDesk(Paper(marks_path(home, config.map_id), config.map_id, config.fence))
+        parts = Parts(link, drive, recorder, SlackCollector(), Service(), keeper, desk, drawn)
         try:
             return _loop(config, parts, asked, carried)
         finally:
             parts.service.stopping()
             keeper.close()
             desk.close()
+            drawn.close()
             recorder.close()
 
 
@@ -117,12 +120,17 @@ def _config(robot: RobotDescription, site: Path, home: Path) -> CoreConfig:
     learnt, trouble = load_learnt(path_of(home, robot), robot)
     trial = robot.valid_trial
     fence, fence_hash = load_fence(site / "fence.json")
+    map_id = read_map_id(site)
+    marks = load_marks(marks_path(home, map_id), map_id)
+    if marks:
+        fence.with_marks(marks)  # prepared before the first tick
     return CoreConfig(
         robot=robot,
         robot_hash=robot.hash,
         fence=fence,
         fence_hash=fence_hash,
-        map_id=read_map_id(site),  # the self test faults a fence drawn on another
+        map_id=map_id,  # the self test faults a fence drawn on another
+        marks=marks,
         boot=secrets.token_hex(6),
         dead_man_s=trial.dead_man_s if trial else None,
         learnt=learnt,

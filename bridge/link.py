@@ -20,6 +20,7 @@ from wire import (
     Stop,
     authentic,
     authentic_fence,
+    authentic_marks,
     decode,
 )
 from wire.base import Record
@@ -37,6 +38,7 @@ from wire.keys import (
     HELLO,
     IMU,
     LOCALIZATION,
+    MARKS,
     ODOM,
     RESET,
     RESUME,
@@ -82,6 +84,7 @@ class BridgeLink:
         self._halts = tuple((kind, key, session.subscriber(key)) for kind, key in _HALTS)
         self._ops = tuple((kind, key, session.subscriber(key)) for kind, key in _OPS)
         self._fence = session.subscriber(FENCE)
+        self._marks = session.subscriber(MARKS)
         self._hello = session.subscriber(HELLO)
         self._grant = session.subscriber(GRANT)
         self._heartbeat = session.subscriber(HEARTBEAT)
@@ -96,7 +99,7 @@ class BridgeLink:
         self._odometry = session.publisher(ODOM)
         self._event = session.publisher(EVENT)
 
-    def drain(
+    def drain(  # noqa: PLR0913  # what came by other ways than the bus, all by name
         self,
         drive: tuple[DriveState | DecodeFailure, ...],
         loop: LoopFacts,
@@ -106,6 +109,7 @@ class BridgeLink:
         is_repeat: Callable[[str, str], bool] = lambda _kind, _id: False,
         imu: Imu | None = None,
         fence_done: FenceDone | None = None,
+        marks_done: FenceDone | None = None,
         recorder_says: str = "",
     ) -> Inbox:
         """Drain one tick's arrivals into an inbox, stops first.
@@ -132,6 +136,8 @@ class BridgeLink:
             estop_link=took.take_newest(ESTOP_LINK, self._estop_link),
             fences=self._fences(took),
             fence_done=fence_done,
+            marks=self._drawn(took),
+            marks_done=marks_done,
             rejected=tuple(took.rejected),
             arrived=tuple(took.arrived),
             loop=loop,
@@ -172,6 +178,16 @@ class BridgeLink:
             fits = authentic_fence(self._operator_key, self._robot_id, request)
             nonce = request.proof.nonce if request.proof is not None else None
             text = request.fence if fits else ""
+            arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
+        return tuple(arrived)
+
+    def _drawn(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
+        """Take requests for other marks; an unproven one's text goes no further."""
+        arrived = []
+        for request in took.take_all(MARKS, self._marks):
+            fits = authentic_marks(self._operator_key, self._robot_id, request)
+            nonce = request.proof.nonce if request.proof is not None else None
+            text = request.marks if fits else ""
             arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
         return tuple(arrived)
 

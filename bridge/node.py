@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from bridge.drive import Drive
     from bridge.fence_update import FenceDesk
     from bridge.link import BridgeLink
+    from bridge.marks_update import MarksDesk
     from bridge.realtime import Pacer, PacerTick, SlackCollector
     from bridge.recording.recorder import Recorder
     from processes.service import Service
@@ -48,6 +49,7 @@ class Parts:
     service: Service
     keeper: BrakingKeeper
     desk: FenceDesk
+    marks: MarksDesk
 
 
 class BridgeNode:
@@ -88,6 +90,7 @@ class BridgeNode:
         self.state = decision.state
         parts.keeper.note(decision.state.learnt)
         parts.desk.note(decision.state.fence_asked, now_s)
+        parts.marks.note(decision.state.marks)
         self._stats.add(tick.late_s + tick.missed * period_s, step_ns)
         parts.service.feed(now_s)
 
@@ -107,6 +110,7 @@ class BridgeNode:
             facts,
             imu=parts.drive.take_imu(),
             fence_done=parts.desk.take(),
+            marks_done=parts.marks.take(),
             real_time=self._real_time,
             recorder_says=parts.recorder.trouble,
             chance=secrets.token_hex(CHANCE_BYTES),

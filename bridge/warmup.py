@@ -146,6 +146,8 @@ def _lively(config: CoreConfig, count: int, now_s: float, base: Inbox) -> Inbox:
         arrived=(ArrivedAt(WAYPOINTS.path, 1),),
         fences=(_fence(config),),
         fence_done=FenceDone(_NAME, _NAME, ""),
+        marks=(_fence(config),),
+        marks_done=FenceDone(_NAME, _NAME, ""),
         recorder_ok=True,
         recorder_says=_NAME,
     )  # fmt: skip

@@ -34,6 +34,7 @@ from planner.robot_service import LinkedRobot
 from planner.settings import list_keys, load_settings
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
+from planner.site.marks import marks_path
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
 from planner.voice import VoiceAbilities
@@ -96,11 +97,13 @@ class Planner:
             MissionJournal.in_home(where.home),
             GoalHistory.in_home(where.home),
         )
-        route_limits = RouteLimits.of(self.description)
-        self._router = RouteWorker(self.site.folder, self.site.map_id, route_limits)
-        radius_m = self.description.base.radius_m
+        drawn = marks_path(where.home, self.site.map_id)
+        limits = RouteLimits.of(self.description)
+        self._router = RouteWorker(self.site.folder, self.site.map_id, limits, drawn)
         taught = TaughtPlaces.in_home(where.home, self._state)
-        self.memory = KnownPlaces(self.site, taught, radius_m=radius_m)
+        self.memory = KnownPlaces(
+            self.site, taught, radius_m=self.description.base.radius_m, marks=drawn
+        )
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
         self._voice = VoiceParts(self.settings, self._list_spoken_names)

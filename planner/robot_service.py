@@ -12,6 +12,7 @@ from wire import (
     FenceRequest,
     HintVerdict,
     LocalizerStatus,
+    MarksRequest,
     Mode,
     OpKind,
     OpRequest,
@@ -122,6 +123,14 @@ class LinkedRobot:
             return await self._link.offer_fence(request)
         except BridgeSilent as silence:
             log.warning("fence: %s", silence)
+            return None
+
+    async def offer_marks(self, request: MarksRequest) -> Answer | None:
+        """Return the bridge's verdict on an operator's marks, or None where it stayed silent."""
+        try:
+            return await self._link.offer_marks(request)
+        except BridgeSilent as silence:
+            log.warning("marks: %s", silence)
             return None
 
     @property

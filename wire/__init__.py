@@ -16,6 +16,7 @@ from wire.commands import (
     Grant,
     Heartbeat,
     Hello,
+    MarksRequest,
     OpKind,
     OpRequest,
     OwnerKind,
@@ -28,7 +29,7 @@ from wire.commands import (
     mark_relayed,
 )
 from wire.errors import ConfigError, DecodeFailure, Unwritable
-from wire.fence import FenceFile
+from wire.fence import FenceFile, MarksFile, SlowMark
 from wire.fingerprint import fingerprint, map_id
 from wire.geometry import (
     IDENTITY,
@@ -48,8 +49,10 @@ from wire.operator_hmac import (
     VIRTUAL_KEY,
     authentic,
     authentic_fence,
+    authentic_marks,
     sign,
     sign_fence,
+    sign_marks,
     signed_request,
 )
 from wire.robot import RobotDescription, load_robot
@@ -144,6 +147,8 @@ __all__ = [
     "Localization",
     "LocalizerStatus",
     "LocalizerTrouble",
+    "MarksFile",
+    "MarksRequest",
     "Mode",
     "Nav2Goal",
     "Nav2Phase",
@@ -171,6 +176,7 @@ __all__ = [
     "SimScene",
     "SimThing",
     "SimTruth",
+    "SlowMark",
     "StandingHold",
     "Status",
     "Stop",
@@ -187,6 +193,7 @@ __all__ = [
     "Waypoints",
     "authentic",
     "authentic_fence",
+    "authentic_marks",
     "between",
     "compose",
     "decode",
@@ -199,6 +206,7 @@ __all__ = [
     "mark_relayed",
     "sign",
     "sign_fence",
+    "sign_marks",
     "signed_request",
     "transform",
     "wrap",

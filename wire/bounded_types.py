@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-PROTOCOL = 4
+PROTOCOL = 5
 """Number of this wire. Unknown fields are refused, so any added field is a new number."""
 
 STATUS_RING = 256

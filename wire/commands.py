@@ -12,7 +12,7 @@ from pydantic import Field
 
 from wire.base import Record
 from wire.bounded_types import MAX_POINTS, MAX_TTL_S, Count, Epoch, Fingerprint, Name
-from wire.fence import MAX_TEXT
+from wire.fence import MAX_MARKS_TEXT, MAX_TEXT
 from wire.geometry import Metres, Mps, Radps, Yaw
 
 OwnerKind = Literal["planner", "external"]
@@ -147,6 +147,16 @@ class FenceRequest(Record):
     source: Name
     fence: Annotated[str, Field(min_length=2, max_length=MAX_TEXT)]
     """The whole text that is to be fence.json."""
+    proof: Proof | None = None
+
+
+class MarksRequest(Record):
+    """Ask as the operator for other marks on the map. The proof binds their text by its SHA-256."""
+
+    id: Name
+    source: Name
+    marks: Annotated[str, Field(min_length=2, max_length=MAX_MARKS_TEXT)]
+    """The whole text: what it leaves out is deleted."""
     proof: Proof | None = None
 
 

@@ -51,7 +51,7 @@ def _keys(*some: Any) -> Keys:
 
 BRIDGE_DOOR = Door(
     "bridge", Party.BRIDGE, (Party.PLANNER, Party.OPERATOR, Party.JUDGE),
-    _keys(*keys.COMMANDS, *keys.OPS, keys.FENCE, keys.TRIAL_ORDER),
+    _keys(*keys.COMMANDS, *keys.OPS, keys.FENCE, keys.MARKS, keys.TRIAL_ORDER),
     _keys(keys.STATUS, keys.EVENT, keys.ODOM, keys.DRIVE_COMMAND, keys.TRIAL_STATE),
     "orders: planner and operators ask here; of what the bridge drives by it hears nothing",
 )  # fmt: skip

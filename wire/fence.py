@@ -50,14 +50,64 @@ class FenceFile(Record):
         return (*self.allowed, *self.keep_outs, *(zone.polygon for zone in self.speed_zones))
 
 
-def fence_text(fence: FenceFile) -> str:
-    """Return the text by which a proposal is reviewed, signed and written."""
+MIN_MARK_M2 = 0.01
+"""A smaller mark is a slip of the finger."""
+MAX_MARK_CORNERS = 400
+"""Of all marks: what a bridge takes up while it drives."""
+MAX_MARKS_TEXT = 12_000
+_Drawn = Annotated[tuple[tuple[Metres, Metres], ...], Field(min_length=3, max_length=100)]
+
+
+class SlowMark(Record):
+    """Bound the speed inside an outline that a person drew."""
+
+    polygon: _Drawn
+    max_speed_mps: Annotated[float, Field(ge=0.05, le=10.0)]
+
+
+class MarksFile(Record):
+    """Hold what people drew on the map: where to stay out and where to go slowly.
+
+    Marks only take away from the fence: they come into force while the robot drives, and deleted
+    they give back what the fence allows and no more.
+    """
+
+    version: Literal[1]
+    map_id: Fingerprint
+    keep_outs: Annotated[tuple[_Drawn, ...], Field(max_length=50)] = ()
+    speed_zones: Annotated[tuple[SlowMark, ...], Field(max_length=50)] = ()
+
+    @property
+    def outlines(self) -> tuple[tuple[Point, ...], ...]:
+        """Return every outline, those of speed zones last."""
+        return (*self.keep_outs, *(zone.polygon for zone in self.speed_zones))
+
+
+def fence_text(fence: FenceFile | MarksFile) -> str:
+    """Return the text by which a proposal or marks are reviewed, signed and written."""
     return json.dumps(fence.model_dump(mode="json"), separators=(",", ":")) + "\n"
 
 
 def text_sha256(text: str) -> str:
     """Return the SHA-256 of a fence's text, which an operator signs."""
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def marks_flaw(marks: MarksFile) -> tuple[str, str] | None:
+    """Return code and particulars of what is wrong with marks; None where nothing is."""
+    corners = sum(len(outline) for outline in marks.outlines)
+    if not corners <= MAX_MARK_CORNERS:
+        return "marks_too_many", f"{corners} corners in all, at most {MAX_MARK_CORNERS}"
+    for outline in marks.outlines:
+        crossing = crosses_itself(outline)
+        if crossing is not None:
+            (ax, ay), (bx, by) = crossing
+            text = f"its sides from ({ax}, {ay}) and from ({bx}, {by}) meet"
+            return "mark_crosses_itself", f"{text}: {_brief(outline)}"
+        if not area_m2(outline) >= MIN_MARK_M2:
+            area = f"{area_m2(outline):.4f} m2, at least {MIN_MARK_M2} m2"
+            return "mark_too_small", f"{area}: {_brief(outline)}"
+    return None
 
 
 def flaw(fence: FenceFile) -> tuple[str, str] | None:

@@ -13,6 +13,7 @@ from wire.commands import (
     Grant,
     Heartbeat,
     Hello,
+    MarksRequest,
     OpRequest,
     Stop,
     Velocity,
@@ -141,6 +142,9 @@ RESUME = _op("resume", "clear held; an operator act")
 FENCE = Key("op/fence", FenceRequest, frozenset({_O, _P}), frozenset({_B}),
             "20 Hz until echoed or 2 s", FEW, MEDIUM,
             "put another fence in force; only while DISARMED")  # fmt: skip
+MARKS = Key("op/marks", MarksRequest, frozenset({_O, _P}), frozenset({_B}),
+            "20 Hz until echoed or 2 s", FEW, MEDIUM,
+            "put other marks of the map in force; they only take away from the fence")  # fmt: skip
 ESTOP_LINK = _from(_S, "op/estop_link", EstopLink, _TO_B, "10 Hz where configured",
                    "a wired stop button's state")  # fmt: skip
 
@@ -203,7 +207,7 @@ TRIAL_STATE = _from(_B, "trial/state", TrialState, frozenset({_P, _J}), "10 Hz i
 OPS = (ARM, DISARM, ESTOP, RESET, RESUME)
 COMMANDS = (HELLO, GRANT, WAYPOINTS, HEARTBEAT, STOP, TELEOP, EXTERNAL)
 KEYS: tuple[Key[Record], ...] = (  # type: ignore[assignment]  # a Key only ever produces its M
-    *COMMANDS, *OPS, FENCE, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
+    *COMMANDS, *OPS, FENCE, MARKS, ESTOP_LINK, STATUS, EVENT, ODOM, LOCALIZATION, LOC_STATE,
     LOC_HINT, DRIVE_COMMAND, DRIVE_STATE, SCAN, LIDAR_STATE, IMU, IMU_STATE, ROS2_STATE,
     NAV2_GOAL, NAV2_STATE, PLAN_VIEW,
     CAMERA_COLOR, CAMERA_DEPTH, CAMERA_STATE, SIM_TRUTH, SIM_SCENE, SIM_CONTROL, TRIAL_ORDER,

@@ -1,7 +1,7 @@
 """Prove and check that an operator meant a request, by HMAC-SHA-256 over its content.
 
-The bytes signed are kind, robot, nonce and id, and for a fence the SHA-256 of its text, each
-preceded by its length, so that no two different requests share them. The key stays with the
+The bytes signed are kind, robot, nonce and id, and for a fence or marks the SHA-256 of the text,
+each preceded by its length, so that no two different requests share them. The key stays with the
 operator (CLI, page) and the bridge; a planner relays proofs that it can't make.
 """
 
@@ -11,7 +11,7 @@ import hashlib
 import hmac
 from typing import Literal
 
-from wire.commands import FenceRequest, OpKind, OpRequest, Proof
+from wire.commands import FenceRequest, MarksRequest, OpKind, OpRequest, Proof
 from wire.fence import text_sha256
 from wire.status import Status
 
@@ -57,11 +57,26 @@ def sign_fence(key: bytes, robot: str, nonce: str, request_id: str, text: str) -
 
 def authentic_fence(key: bytes, robot: str, request: FenceRequest) -> bool:
     """Return whether the proof fits the request and the very text that came with it."""
+    return _fits_text(key, "fence", robot, request, request.fence)
+
+
+def sign_marks(key: bytes, robot: str, nonce: str, request_id: str, text: str) -> Proof:
+    """Make the proof for one text of marks, and no other, under one nonce."""
+    return Proof(nonce=nonce, mac=_mac(key, "marks", robot, nonce, request_id, text_sha256(text)))
+
+
+def authentic_marks(key: bytes, robot: str, request: MarksRequest) -> bool:
+    """Return whether the proof fits the request and the very text that came with it."""
+    return _fits_text(key, "marks", robot, request, request.marks)
+
+
+def _fits_text(
+    key: bytes, kind: str, robot: str, request: FenceRequest | MarksRequest, text: str
+) -> bool:
     proof = request.proof
     if proof is None:
         return False
-    digest = text_sha256(request.fence)
-    expected = _mac(key, "fence", robot, proof.nonce, request.id, digest)
+    expected = _mac(key, kind, robot, proof.nonce, request.id, text_sha256(text))
     return hmac.compare_digest(expected, proof.mac)
 
 

@@ -200,6 +200,8 @@ class Status(Record):
     blocked: bool
     robot_hash: Fingerprint
     fence_hash: Fingerprint
+    marks_hash: Fingerprint | None = None
+    """Of the marks in force, set by the bridge for the planner; None: there are none."""
     map_id: Fingerprint | None
     operator_metres: Length
     """What is left of the distance allowed since the last operator act."""

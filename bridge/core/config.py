@@ -26,6 +26,8 @@ class CoreConfig:
     dead_man_s: float | None = None
     """Silence after which this very base was seen to stop; None: nobody has tried. Counts only for
     a drive that does not report it."""
+    marks: str = ""
+    """The text of what people drew on the map, as an earlier run was left with; empty: nothing."""
     learnt: Learnt = UNLEARNT
     """What earlier runs learnt of this robot's brakes: the state goes on from there."""
     braking_trouble: str | None = None

@@ -90,6 +90,9 @@ class Inbox:
     fences: tuple[FenceArrival, ...] = ()
     fence_done: FenceDone | None = None
     """What became of the fence that the core asked for."""
+    marks: tuple[FenceArrival, ...] = ()
+    marks_done: FenceDone | None = None
+    """What became of the marks that the core asked for."""
     rejected: tuple[RejectedAt, ...] = ()
     arrived: tuple[ArrivedAt, ...] = ()
     loop: LoopFacts = ON_TIME
@@ -111,7 +114,7 @@ EMPTY = Inbox()
 
 @value
 class FenceArrival:
-    """Give an operator's request for another fence, and whether its proof binds this very text."""
+    """Give an operator's request for a fence or for marks, and whether its proof binds the text."""
 
     id: str
     source: str
@@ -123,7 +126,7 @@ class FenceArrival:
 
 @value
 class FenceDone:
-    """Report a fence request's end: ``ok`` with both hashes, or why the fence can't be."""
+    """Report the end of a request: ``ok`` with both hashes, or why fence or marks can't be."""
 
     id: str
     code: str

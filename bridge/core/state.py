@@ -23,6 +23,7 @@ from bridge.core.state_orders import (
     External,
     Grants,
     LegMemory,
+    Marks,
     Operator,
     Ownership,
     PendingFence,
@@ -126,6 +127,7 @@ class BridgeState:
     learnt: Learnt = UNLEARNT
     """How much worse than robot.toml this robot brakes; a run begins with what others learnt."""
     fence_asked: PendingFence | None = None
+    marks: Marks = field(default_factory=Marks)
     braking_trouble: str | None = None
     """Why what others learnt could not be read."""
     ramp: Ramp | None = None

@@ -166,6 +166,25 @@ class Stick:
 
 
 @value
+class PendingMarks:
+    """Remember a request for marks whose proof held, while it is prepared and written."""
+
+    id: str
+    source: str
+    text: str
+
+
+@value
+class Marks:
+    """Remember what people drew on the map and is in force, and what is asked for."""
+
+    text: str = ""
+    """Empty: nothing is drawn."""
+    hash: str | None = None
+    asked: PendingMarks | None = None
+
+
+@value
 class PendingFence:
     """Remember a request whose proof held while nothing had torque."""
 

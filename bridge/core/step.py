@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bridge.core.authority import epoch, message_limits, ownership, requests
+from bridge.core.authority import epoch, marks, message_limits, ownership, requests
 from bridge.core.authority.epoch import revoke
 from bridge.core.authority.external_velocity import hear_external
 from bridge.core.authority.leg_tracking import hear_waypoints
@@ -22,8 +22,9 @@ from bridge.core.motion.wheel_command import command
 from bridge.core.reporting.report import events_of, odometry_of, status_of
 from bridge.core.sensing import sensor_update, stop_inputs
 from bridge.core.state import BridgeState, draft
-from bridge.core.state_orders import Operator
+from bridge.core.state_orders import Marks, Operator
 from bridge.core.tick_context import TickContext
+from wire.fingerprint import fingerprint
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
@@ -43,6 +44,7 @@ def initial(config: CoreConfig, now_s: float) -> BridgeState:
         mode_since_s=now_s,
         operator=Operator(nonce_made_s=now_s),
         learnt=config.learnt,
+        marks=Marks(config.marks, fingerprint(config.marks.encode()) if config.marks else None),
         braking_trouble=config.braking_trouble,
     )
 
@@ -102,6 +104,10 @@ def _listen(tick: TickContext) -> None:
         requests.hear_fence(tick, fence)
     if inbox.fence_done is not None:
         requests.hear_done(tick, inbox.fence_done)
+    for drawn in inbox.marks:
+        marks.hear_marks(tick, drawn)
+    if inbox.marks_done is not None:
+        marks.hear_marks_done(tick, inbox.marks_done)
     if inbox.rejected:
         message_limits.hear_rejected(tick)
     teleop.watch(tick)

@@ -20,6 +20,7 @@ from wire import STATUS_RING, Mode
 
 if TYPE_CHECKING:
     from bridge.core.config import CoreConfig
+    from bridge.core.geometry.fence import FenceGrid
     from bridge.core.inbox import Inbox
     from bridge.core.state import BridgeState
     from wire import Pose2
@@ -85,6 +86,12 @@ class TickContext:
     """Path in which the robot must be able to stand; None where nothing is in the way."""
     robot_in_map: Pose2 | None = None
     """None while localization is not to be trusted."""
+
+    @property
+    def fence(self) -> FenceGrid | None:
+        """Return the fence less what people drew on the map: what holds for every motion."""
+        fence, text = self.config.fence, self.s.marks.text
+        return fence.with_marks(text) if fence is not None and text else fence
 
     @property
     def epoch(self) -> str:

@@ -17,6 +17,7 @@ from planner.api import (
     history,
     live_voice,
     localization,
+    marks,
     memory,
     objects,
     operator,
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
 
 _PARTS = (
     goals, rehearsals, voice, live_voice, operator, hand, setup, robot, orders, places,
-    localization, objects, memory, pictures, camera, fence, people, usage, history, health,
+    localization, objects, memory, pictures, camera, fence, marks, people, usage, history, health,
     websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"

@@ -18,7 +18,7 @@ from planner.brain.model_replies import GoalReplies
 from planner.language.catalogue import say
 from planner.language.sentence import SaidSentence, parse
 from planner.mission.errors import MissionError
-from planner.plan import Goal
+from planner.plan import Goal, Language
 
 STATUS = {
     "unknown_goal": 404,
@@ -73,14 +73,21 @@ class GoalIntake:
             raise HttpProblem(
                 422, "goal_too_long", f"{detail}; the robot was stopped", message=told
             )
-        if stops:
-            return said
+        if not stops:
+            self.judge_rate(request)
+        return said
+
+    def judge_rate(self, request: Request) -> None:
+        """Pass a goal that comes in time.
+
+        Raises:
+            HttpProblem: ``too_many_goals``.
+        """
         address = address_of(request.client.host) if request.client else ""
         wait_s = self._rates.wait_s(address)
         if wait_s is not None:
             detail = f"at most {AT_ONCE} at once, then {A_SECOND:g} a second; wait {wait_s:.1f} s"
             raise HttpProblem(429, "too_many_goals", detail)
-        return said
 
 
 def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
@@ -88,20 +95,32 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
 
     @router.post("", status_code=202, operation_id="give_goal")
     async def give(new: NewGoal, request: Request, idempotency_key: IdempotencyKey = None) -> Goal:
-        """Give a goal in words. An understood but impossible one ends refused.
+        """Give a goal, in words or by points of the map. An impossible one ends refused.
 
         A plain yes or no answers what waits for one (a step's question, a plan, a brain's only
         offer), where nothing else can be meant.
         """
+        if new.text is None:
+            door.judge_rate(request)
+            act = persons_act(services.robot, new.operator)
+            goal_id = await goals.points.give(
+                new.steps,
+                language=new.language or Language.EN,
+                confirm=new.confirm,
+                replace=new.replace,
+                idempotency_key=idempotency_key,
+                act=act,
+                by=source_of(request, new.source),
+            )
+            return goals.goal(goal_id)
         said = await door.judge(new.text, request)
-        act = act_behind(services.robot, said, new.operator)
         return await goals.submit(
             new.text,
             language=new.language,
             confirm=new.confirm,
             replace=new.replace,
             idempotency_key=idempotency_key,
-            act=act,
+            act=act_behind(services.robot, said, new.operator),
             by=source_of(request, new.source),
         )
 
@@ -147,17 +166,18 @@ def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:
         return await goals.resume(goal_id, act=act)
 
     @router.post("/{goal_id}/confirm", operation_id="confirm_goal")
-    async def confirm(goal_id: str, order: GoalOrder | None = None) -> Goal:
+    async def confirm(goal_id: str, request: Request, order: GoalOrder | None = None) -> Goal:
         """Say yes to a plan; an operator's act."""
-        act = persons_act(services.robot, order.operator if order else None)
-        return await goals.confirm(goal_id, act=act, by=order.source if order else "api")
+        said = order or GoalOrder()
+        act = persons_act(services.robot, said.operator)
+        return await goals.confirm(goal_id, act=act, by=source_of(request, said.source))
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: GoalReply, request: Request) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
         said = await door.judge(reply.text, request)
         act = act_behind(services.robot, said, reply.operator)
-        return await goals.answer(goal_id, reply.text, act=act, by=reply.source)
+        return await goals.answer(goal_id, reply.text, act=act, by=source_of(request, reply.source))
 
     @router.post("/{goal_id}/move", operation_id="move_goal")
     async def move(goal_id: str, where: GoalMove) -> Goal:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
     from planner.people import People
     from planner.perception import Picture, Sight, Thing
-    from planner.plan import Goal, Language
+    from planner.plan import Goal, GoToPose, Language
     from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         FenceRequest,
         HintVerdict,
         LocalizerStatus,
+        MarksRequest,
         OpKind,
         OpRequest,
         PoseHint,
@@ -52,6 +53,24 @@ class LayerSource(Protocol):
     def report(self) -> ObstacleReport | None: ...
 
 
+class PointIntake(Protocol):
+    """Take goals by points of the map."""
+
+    async def give(
+        self,
+        points: tuple[GoToPose, ...],
+        *,
+        language: Language,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        act: OpRequest | None = None,
+        by: str = "api",
+    ) -> str:
+        """Take a goal in and return its id; raises MissionError with a stable code."""
+        ...
+
+
 class Goals(Protocol):
     """Keep goals; each method answers at once and raises MissionError with a stable code.
 
@@ -73,6 +92,9 @@ class Goals(Protocol):
 
     @property
     def obstacles(self) -> LayerSource | None: ...
+
+    @property
+    def points(self) -> PointIntake: ...
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, with any other meaning besides."""
@@ -141,6 +163,8 @@ class Robot(Protocol):
     async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None: ...
 
     async def offer_fence(self, request: FenceRequest) -> Answer | None: ...
+
+    async def offer_marks(self, request: MarksRequest) -> Answer | None: ...
 
     @property
     def driver(self) -> dict[str, str] | None: ...

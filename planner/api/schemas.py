@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
 from maps.errors import BilingualError
 from planner.language.catalogue import say
-from planner.plan import Language
+from planner.plan import GoToPose, Language
 from wire import Proof, TrialAct
-from wire.bounded_types import Count, Name
-from wire.geometry import Mps, Radps
+from wire.bounded_types import Count, Fingerprint, Name
+from wire.geometry import Metres, Mps, Radps, Yaw
 
 MAX_GOAL_CHARACTERS = 4_000
 """Of a goal and of an answer; lists, snapshots and the journal keep them many times over."""
@@ -41,12 +41,31 @@ Text = Annotated[
 ]
 
 
-class NewGoal(Body):
-    """Give a goal in words."""
+class GoalPoint(Body):
+    """Point at a spot of the map: to stand at, with a heading or without, or to look at."""
 
-    text: Text
+    x_m: Annotated[Metres, Field(strict=True)]
+    y_m: Annotated[Metres, Field(strict=True)]
+    yaw_rad: Annotated[Yaw, Field(strict=True)] | None = None
+    look: StrictBool = False
+    """Stand near by, where the point is seen from, and face it; then no yaw_rad."""
+
+    @model_validator(mode="after")
+    def _faces_one_way(self) -> GoalPoint:
+        if self.look and self.yaw_rad is not None:
+            raise law_broken("look_or_yaw")
+        return self
+
+
+class NewGoal(Body):
+    """Give a goal in words, or by points of the map, in a row."""
+
+    text: Text | None = None
     source: Name = "api"
     """The door that it comes through (``page``, ``cli``): shown beside the goal."""
+    points: Annotated[tuple[GoalPoint, ...], Field(min_length=1, max_length=20)] | None = None
+    map_id: Fingerprint | None = None
+    """The map that the points are on."""
     language: Language | None = None
     confirm: StrictBool = False
     """Show the plan and wait for a yes before the first step."""
@@ -55,6 +74,21 @@ class NewGoal(Body):
     first; what is paused or queued keeps its place."""
     operator: OperatorProof | None = None
     """On a robot of metal: a proof of kind resume, which clears what a stop has held."""
+
+    @model_validator(mode="after")
+    def _words_or_points(self) -> NewGoal:
+        if (self.text is None) is (self.points is None):
+            raise law_broken("text_or_points")
+        if (self.points is None) is not (self.map_id is None):
+            raise law_broken("points_need_map")
+        return self
+
+    @property
+    def steps(self) -> tuple[GoToPose, ...]:
+        """Return the points as steps of a plan; none of a goal in words."""
+        return tuple(
+            GoToPose(map_id=self.map_id or "", **point.model_dump()) for point in self.points or ()
+        )
 
 
 class GoalOrder(Body):

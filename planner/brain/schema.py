@@ -14,6 +14,7 @@ from typing import Any, Literal, get_args
 from planner.plan import (
     CONDITIONS,
     CONTROL,
+    GIVEN,
     RUNNABLE,
     ClockTime,
     Code,
@@ -66,7 +67,7 @@ def step_models(runnable: frozenset[str] = RUNNABLE) -> dict[str, type[Frozen]]:
     """Return the models of the steps that may be offered, by their kind, in the plan's order."""
     union, *_ = get_args(Step)
     models = {_kind(model): model for model in get_args(union)}
-    return {kind: model for kind, model in models.items() if kind in runnable}
+    return {kind: model for kind, model in models.items() if kind in runnable - GIVEN}
 
 
 def step_line(model: type[Frozen]) -> str:

@@ -25,6 +25,7 @@ from wire import (
     HintVerdict,
     Localization,
     LocalizerStatus,
+    MarksRequest,
     Nav2State,
     Odometry,
     OpKind,
@@ -231,6 +232,17 @@ class Link:
         answer = await self._until_echoed(request.id, lambda: self._bus.send(request))
         if answer is None:
             raise BridgeSilent("fence", ECHO_S)
+        return answer
+
+    async def offer_marks(self, request: MarksRequest) -> Answer:
+        """Bring an operator's marks to the bridge and return its verdict.
+
+        Raises:
+            BridgeSilent: it was not echoed within 2 s.
+        """
+        answer = await self._until_echoed(request.id, lambda: self._bus.send(request))
+        if answer is None:
+            raise BridgeSilent("marks", ECHO_S)
         return answer
 
     async def hint(self, hint: PoseHint) -> HintVerdict | None:

@@ -16,6 +16,7 @@ from wire import (
     Hello,
     Localization,
     LocalizerStatus,
+    MarksRequest,
     Nav2Goal,
     Nav2State,
     Odometry,
@@ -97,6 +98,7 @@ class WireBus:
         self._waypoints = session.publisher(k.WAYPOINTS)
         self._stop = session.publisher(k.STOP)
         self._fence = session.publisher(k.FENCE)
+        self._marks = session.publisher(k.MARKS)
         self._teleop = session.publisher(k.TELEOP)
         self._ops = {key.path.removeprefix("op/"): session.publisher(key) for key in k.OPS}
 
@@ -138,6 +140,8 @@ class WireBus:
                 self._stop.put(message)
             case FenceRequest():
                 self._fence.put(message)
+            case MarksRequest():
+                self._marks.put(message)
             case PoseHint():
                 self._hint.put(message)
             case TrialOrder():

@@ -22,6 +22,7 @@ from planner.plan import (
     Follow,
     GoTo,
     GoToObject,
+    GoToPose,
     If,
     Look,
     MoveStraight,
@@ -91,6 +92,9 @@ class _Teller:
         match step:
             case GoTo():
                 return say("order.go_to", name=self.name_of(step.place))
+            case GoToPose():
+                code = "order.look_at_point" if step.look else "order.go_to_pose"
+                return say(code, x_m=f"{step.x_m:.2f}", y_m=f"{step.y_m:.2f}")
             case StandAt():
                 return self._stand(step)
             case Find() | Count() | GoToObject():

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from planner.plan import StepRecord
     from planner.site.site_view import SiteView
 
-DRIVEN = frozenset({"go_to", "return_home", "come_back"})
+DRIVEN = frozenset({"go_to", "go_to_pose", "return_home", "come_back"})
 MOTION = DRIVEN | {"stand_at", "turn", "move", "patrol", "explore"}
 BACK = frozenset({"come_back", "return_home"})
 _OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
@@ -72,10 +72,17 @@ def place_name(facts: SiteView, mission: Mission, step: StepRecord | None) -> Bi
         return say("account.start")
     if step is not None and step.kind in ("turn", "move"):
         return say("account.goal_pose")
+    if step is not None and step.kind == "go_to_pose":
+        return name_point(step)
     if step is not None and step.kind == "explore":
         return say("account.frontier")
     wanted = facts.home if step is not None and step.kind == "return_home" else None
     return _name(facts, wanted or (_place(mission, step) if step is not None else ""))
+
+
+def name_point(step: StepRecord) -> Bilingual:
+    """Name a point of the map that a person gave: ``point (3.20, 4.10)``."""
+    return say("account.point", x_m=f"{step.x_m or 0.0:.2f}", y_m=f"{step.y_m or 0.0:.2f}")
 
 
 def _place(mission: Mission, step: StepRecord) -> str:

@@ -121,7 +121,7 @@ def row_of(mission: Mission) -> dict[str, Any]:
         "reason": mission.reason,
         "text": mission.text[:FIRST_CHARACTERS],
         "language": mission.language.value,
-        "source": mission.source,
+        "source": mission.by,
         "metres": mission.metres,
         "told": json.dumps(told, ensure_ascii=False),
     }
@@ -183,7 +183,7 @@ class GoalHistory:
             if not changes or changes[-1].state != state:
                 changes.append(StateChange(state=GoalState(state), at_unix_s=at_unix_s))
         return mission, GoalStory(
-            source=mission.source,
+            source=mission.by,
             questions=mission.questions,
             replies=mission.replies,
             map_id=mission.map_id,

@@ -103,6 +103,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         order=order,
         text=event.text,
         changed=event.changed,
+        points=event.points,
         language=event.language,
         state=FIRST,
         confirm=event.confirm,

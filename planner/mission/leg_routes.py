@@ -34,6 +34,8 @@ SHORT_M = 0.05
 """A straight way that ends so near to its goal is whole."""
 MOVED_M = 0.2
 """A route that ends farther from its goal than this ends elsewhere."""
+EXACT_M = 0.05
+"""A route that ends farther from a person's point than this does not lead to it."""
 OCCUPIED = "goal_occupied"
 """The route search's code where something not on the map leaves no floor beside the goal."""
 MAX_APPROACHES = 2
@@ -62,6 +64,8 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
         _take_manoeuvre(turn, mission, leg, leg.manoeuvre, routed)
     elif failure is None and leg.act.way is Way.STRAIGHT and not short_m <= SHORT_M:
         take_short(turn, leg, short_m)
+    elif failure is None and leg.act.exact and not short_m <= EXACT_M:
+        wait_beside(turn, mission, leg)
     elif failure is None:
         _take_route(turn, mission, leg, routed)
     elif leg.act.way is not Way.ROUTE and leg.purpose is RoutePurpose.DETOUR:

@@ -71,6 +71,8 @@ def asked_spot(facts: SiteView, mission: Mission, step: StepRecord) -> Spot | No
     """Name where a step was to go, or None where it goes nowhere."""
     if step.kind == "come_back":
         return spot_at(facts, accepted_at(mission))
+    if step.kind == "go_to_pose":
+        return Spot(x_m=step.x_m, y_m=step.y_m, yaw_rad=step.yaw_rad)
     target = facts.targets.get(facts.home if step.kind == "return_home" else step.place or "")
     if target is None:
         return Spot(place=step.place) if step.kind in MOTION else None

@@ -54,18 +54,26 @@ class RobotSurvey:
             raise PlaceRefusal("robot_moving")
         return here
 
-    async def check_way(self, start: Pose2, goal: Pose2) -> None:
+    async def check_way(self, start: Pose2, goal: Pose2, *, sees_from_m: float = 0.0) -> None:
         """Accept a point that a route reaches, without being moved beside an obstacle.
+
+        Args:
+            start: where the way begins.
+            goal: where it ends.
+            sees_from_m: where not 0, it is to end where the point is seen, and no nearer to it.
 
         Raises:
             PlaceRefusal: ``place_unreachable``, ``place_in_obstacle``, ``place_outside_map`` or
                 ``route_unavailable``.
         """
         try:
-            result = await self._router.route(RouteRequest(start, goal))
+            sees = (goal.x_m, goal.y_m) if sees_from_m else None
+            result = await self._router.route(
+                RouteRequest(start, goal, sees=sees, sees_from_m=sees_from_m)
+            )
         except RouteFailure as failure:
             code = _CODES.get(failure.code, "route_unavailable")
             raise PlaceRefusal(code, failure.code) from None
-        if not result.moved_goal_m <= MOST_MOVED_M:
+        if not (sees_from_m or result.moved_goal_m <= MOST_MOVED_M):
             detail = f"free floor is {result.moved_goal_m:.2f} m away"
             raise PlaceRefusal("place_in_obstacle", detail)

@@ -157,6 +157,7 @@ def key_of_deed(step: StepRecord) -> tuple[object, ...]:
     return (
         *(step.kind, step.place, step.places, label),
         *(step.angle_rad, step.distance_m, step.x, step.y, step.side),
+        *(step.map_id, step.x_m, step.y_m, step.yaw_rad),
     )
 
 

@@ -34,14 +34,17 @@ from planner.mission.events import Planned
 from planner.mission.tasks import Think
 from planner.plan import (
     BARE,
+    GIVEN,
     Bilingual,
     Code,
     Means,
     Outcome,
+    Plan,
     Step,
     StepPlan,
     Vocabulary,
     check_plan,
+    list_nodes,
 )
 
 CHECKS = frozenset({"look", "find", "count", "ask", "recall"})
@@ -168,13 +171,28 @@ def thinker(
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
             return Planned(ask.id, None, said, error.brain or brain.tag)
-        rejection = check_plan(thought.plan, vocabulary, means.runnable, means.blind)
+        runnable = means.runnable - (GIVEN if _points_beyond(thought.plan, ask) else frozenset())
+        rejection = check_plan(thought.plan, vocabulary, runnable, means.blind)
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
         unasked, sure = await _hold_to_words(thought, request)
         return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
 
     return think
+
+
+def _points_beyond(plan: Plan, ask: AskBrain) -> bool:
+    """Tell whether a brain's plan drives to a point of the map that no person gave.
+
+    "Again" keeps the points of the order before: a person gave those.
+    """
+    if not isinstance(plan, StepPlan):
+        return False
+    kept = ask.changed.steps if ask.changed is not None else ()
+    given = {node.step for node in list_nodes(kept) if node.step.kind in GIVEN}
+    return any(
+        node.step.kind in GIVEN and node.step not in given for node in list_nodes(plan.steps)
+    )
 
 
 def _tell_down(error: BrainDown) -> Bilingual:

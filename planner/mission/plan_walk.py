@@ -186,7 +186,7 @@ def _next_round(row: Row, parent: int, index: int, spent: RoundBudget) -> WalkPo
 _ASKED = frozenset(
     {"kind", "place", "places", "object", "text", "seconds", "angle_rad", "distance_m"}
     | {"x", "y", "depth", "role", "times", "word", "time", "after", "before"}
-    | {"span", "deeds", "look", "side"}
+    | {"span", "deeds", "look", "side", "map_id", "x_m", "y_m", "yaw_rad"}
 )
 """What a plan asks of a step; the rest of its record says what came of it."""
 

@@ -12,8 +12,6 @@ At most ``MAX_OPEN`` goals are open, but for what is said to the planner itself.
 
 from __future__ import annotations
 
-import hashlib
-import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -28,8 +26,8 @@ from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of
-from planner.mission.journal import MAX_KEYS
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
+from planner.mission.request_keys import Repeats, body_of, request_of
 from planner.mission.state import (
     RESERVED_KEYS,
     GoalKey,
@@ -40,42 +38,11 @@ from planner.mission.state import (
 from planner.plan import ChangedOrder, GoalState
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Submitted
 
 OLD_STATUS_S = 1.0
 """A status older than this says nothing of whether the robot moves now."""
-
-
-class Repeats:
-    """Remember the newest keys of requests and the goals they made, as many as the journal does."""
-
-    def __init__(self, kept: Iterable[GoalKey] = ()) -> None:
-        """Begin with the journal's keys, oldest first."""
-        self.recall(kept)
-
-    def recall(self, kept: Iterable[GoalKey]) -> None:
-        """Take up the journal's keys, oldest first."""
-        self._keys = {each.key: each for each in kept}
-
-    def find(self, key: str | None) -> GoalKey | None:
-        """Return the request that came with a key before, or None; without a key none is known."""
-        return self._keys.get(key) if key is not None else None
-
-    def remember(self, request: GoalKey | None) -> None:
-        """Remember a request that was taken in; one without a key is never known again."""
-        if request is None:
-            return
-        if len(self._keys) >= MAX_KEYS:
-            self._keys.pop(next(iter(self._keys)))
-        self._keys[request.key] = request
-
-    def forget(self, request: GoalKey | None) -> None:
-        """Let a request come anew: it was not taken."""
-        if request is not None:
-            self._keys.pop(request.key, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,13 +89,8 @@ def receive(
     if isinstance(reading, HaltReading):
         halted = _mark_denied(book, goals, said, given) if reading.is_doubtful else given
         return Reception(_halt(book, halted, reading, full=full), stops=True)
-    if key is not None and key.startswith(RESERVED_KEYS):
-        return Reception(given, refused=ReservedKey(key))
-    body, before = _body_of(given), repeats.find(key) if repeats is not None else None
-    if before is not None and before.body != body:
-        return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
-    if before is not None:
-        return Reception(given, repeats=before.goal)
+    if (known := _find_known(given, key, repeats)) is not None:
+        return known
     asking = reading.goals if isinstance(reading, AnswerReading) else ()
     lean = reading if isinstance(reading, ChangeReading) else leaning
     local = bool(asking) or not (said.intent is None or lean is not None)
@@ -144,9 +106,32 @@ def receive(
     if full and not local:
         open_goals = sum(not m.has_ended for m in book.missions.values())
         return Reception(marked, refused=QueueFull(open_goals))
-    request = GoalKey(key, body, given.id) if key is not None else None
     ends = goal_to_end(book) if lean is not None and lean.ends else None
-    return Reception(marked, takes_back=ends, request=request)
+    return Reception(marked, takes_back=ends, request=request_of(given, key))
+
+
+def receive_points(
+    book: MissionState, given: Submitted, key: str | None, repeats: Repeats
+) -> Reception:
+    """Return the decision on a goal that was given by points of the map: no words are read."""
+    if (known := _find_known(given, key, repeats)) is not None:
+        return known
+    if not has_room(book):
+        open_goals = sum(not m.has_ended for m in book.missions.values())
+        return Reception(given, refused=QueueFull(open_goals))
+    return Reception(given, request=request_of(given, key))
+
+
+def _find_known(given: Submitted, key: str | None, repeats: Repeats | None) -> Reception | None:
+    """Return the decision on a request whose key was used before, or that no person may use."""
+    if key is not None and key.startswith(RESERVED_KEYS):
+        return Reception(given, refused=ReservedKey(key))
+    before = repeats.find(key) if repeats is not None else None
+    if before is None:
+        return None
+    if before.body != body_of(given):
+        return Reception(given, refused=IdempotencyConflict(before.key, before.goal))
+    return Reception(given, repeats=before.goal)
 
 
 def _halt(book: MissionState, given: Submitted, reading: HaltReading, *, full: bool) -> Submitted:
@@ -212,13 +197,6 @@ class _AtHand:
         leans = lean is not None and bool(lean.changed.steps)
         may_mean = said.may_mean_stop and not leans
         return may_mean or denies_way(self._book, said.text, self.now_unix_s)
-
-
-def _body_of(given: Submitted) -> str:
-    """Return the fingerprint of a request, as it came."""
-    asked = [given.text, given.language.value, given.confirm, given.replace]
-    fields = json.dumps(asked, ensure_ascii=True)
-    return hashlib.sha256(fields.encode()).hexdigest()[:32]
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import CATALOGUE, say
 from planner.language.object_classes import KINDS
 from planner.language.object_names import name_object
-from planner.mission.account import BACK
+from planner.mission.account import BACK, name_point
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
 from planner.mission.plan_walk import catch
@@ -131,6 +131,8 @@ def _ends(facts: SiteView, mission: Mission, step: StepRecord) -> tuple[tuple[fl
     accepted = accepted_at(mission)
     if step.kind == "come_back":
         return () if accepted is None else ((accepted.x_m, accepted.y_m),)
+    if step.x_m is not None and step.y_m is not None:
+        return ((step.x_m, step.y_m),)
     named = (facts.home,) if step.kind == "return_home" else places_of(step)
     targets = (facts.targets[place] for place in named if place in facts.targets)
     return tuple((t.pose.x_m, t.pose.y_m) for t in targets) if moves(step) else ()
@@ -176,6 +178,8 @@ def whole_deed(facts: SiteView, steps: Iterable[StepRecord]) -> Bilingual:
 def name_deed(facts: SiteView, step: StepRecord) -> Bilingual:
     """Name what a step that may move the robot does."""
     place = facts.home if step.kind == "return_home" else step.place
+    if step.kind == "go_to_pose":
+        return say("deed.drive_to", name=name_point(step))
     if place:
         name = facts.targets[place].name if place in facts.targets else say_same(place)
         return say("deed.drive_to", name=name)

@@ -20,7 +20,7 @@ from planner.mission.api_view import goal_of
 from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
-from planner.mission.errors import JournalDown, NothingToResume, UnknownGoal
+from planner.mission.errors import NothingToResume, UnknownGoal
 from planner.mission.events import (
     Cancel,
     Command,
@@ -34,6 +34,7 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
+from planner.mission.given_points import PointGoals
 from planner.mission.journal_sync import Disk
 from planner.mission.loop import Loop
 from planner.mission.memory_lookup import MemoryLookup
@@ -41,13 +42,13 @@ from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
-    Repeats,
     awaits_answer,
     goal_to_resume,
     hears_stop,
     receive,
     receive_answer,
 )
+from planner.mission.request_keys import Repeats
 from planner.mission.route_prefetch import RouteAhead
 from planner.mission.scan_sender import ScanObserver, ScanSender
 from planner.mission.standing_goals import StandingGoals
@@ -64,7 +65,6 @@ if TYPE_CHECKING:
     from planner.memory import Recollection
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
-    from planner.mission.state import GoalKey
 
 
 class Missions:
@@ -84,7 +84,8 @@ class Missions:
     ) -> None:
         """Put the parts together; ``site`` is a site, or the memory of its places."""
         self.link, self.memory = link, site if isinstance(site, KnownPlaces) else KnownPlaces(site)
-        self.memory.use(RobotSurvey(link, router))
+        survey = RobotSurvey(link, router)
+        self.memory.use(survey)
         site = self.memory.site
         self.planner_id = planner_id or f"planner-{uuid.uuid4().hex[:12]}"
         identity = Identity(self.planner_id, robot.hash, site.fence.fence_hash, site.map_id)
@@ -96,6 +97,8 @@ class Missions:
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
         self._lookup = MemoryLookup(self.loop, self._clocks.wall)
         self.commands = PlannerCommands(self._ask_brain, self.memory, self.loop, link, self._lookup)
+        think = self.commands.think
+        self.points = PointGoals(self.loop, self.memory, survey, self._repeats, self._clocks, think)
         self.standing = StandingGoals(self.loop, self._ask_brain, self._repeats)
         self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
@@ -131,7 +134,7 @@ class Missions:
         """
         self.loop.rule(rules or Rules())
         kept = await self.loop.start(
-            self.commands.think,
+            self.points.think,
             self._router,
             freeze=freeze,
             rounds=rounds,
@@ -200,7 +203,7 @@ class Missions:
         self.loop.event(heard.given, heard.request)
         if heard.takes_back is not None:
             self.loop.event(Cancel(heard.takes_back))
-        await self._ensure_written(goal_id, heard.request)
+        await self._repeats.ensure_written(self.loop, goal_id, heard.request)
         return self.goal(goal_id)
 
     def hears_stop(self, text: str) -> bool:
@@ -210,15 +213,6 @@ class Missions:
     def awaits_answer(self) -> bool:
         """Return whether a question waits for a yes or no."""
         return awaits_answer(self.loop.book)
-
-    async def _ensure_written(self, goal_id: str, request: GoalKey | None) -> None:
-        """Wait until a goal is written down; take back one that can't be."""
-        try:
-            await self.loop.wait_written()
-        except JournalDown:
-            self.loop.event(Cancel(goal_id))
-            self._repeats.forget(request)
-            raise
 
     async def cancel(self, goal_id: str) -> Goal:
         """End a goal. Raises UnknownGoal, BadState."""

@@ -6,7 +6,7 @@ from math import hypot
 
 from planner.language.catalogue import message, say, say_or_quote
 from planner.language.formatting import definite
-from planner.mission.account import place_name
+from planner.mission.account import DRIVEN, place_name
 from planner.mission.bridge_status import standing, worst_row
 from planner.mission.outcomes import spot_at
 from planner.mission.state import Mission, MissionState
@@ -144,7 +144,7 @@ def _task(book: MissionState, asking: str) -> Bilingual:
 def _running(book: MissionState, mission: Mission) -> Bilingual:
     step = mission.steps[mission.step] if mission.step < len(mission.steps) else None
     name = place_name(book.facts, mission, step) if step is not None else None
-    goes = step is not None and step.kind in ("go_to", "return_home", "come_back")
+    goes = step is not None and step.kind in DRIVEN
     to = name if goes and name is not None else None
     text = _short(mission.text)
     if to is None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from planner.brain.situation import Situation
 from planner.language.catalogue import join, message, say
 from planner.mission.effects import AskBrain
-from planner.mission.errors import JournalDown, QueueFull
+from planner.mission.errors import QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
 from planner.mission.open_questions import has_room
 from planner.mission.outcomes import moves
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from planner.language.schedule import ChangeOrders, OrderCommand
     from planner.mission.loop import Loop
     from planner.mission.plan_request import RefusesOffer
-    from planner.mission.reception import Repeats
+    from planner.mission.request_keys import Repeats
     from planner.mission.tasks import Think
 
 
@@ -167,12 +167,7 @@ class StandingGoals:
         request = GoalKey(key, body, goal_id)
         self._repeats.remember(request)
         self._loop.event(Submitted(goal_id, text, language, source=source, by="order"), request)
-        try:
-            await self._loop.wait_written()
-        except JournalDown:
-            self._loop.event(Cancel(goal_id))
-            self._repeats.forget(request)
-            raise
+        await self._repeats.ensure_written(self._loop, goal_id, request)
         return goal_id
 
     def outcome(self, goal_id: str) -> Mission | None:

@@ -25,6 +25,7 @@ from planner.plan import (
     Frozen,
     GoalAnswer,
     GoalState,
+    GoToPose,
     Language,
     Means,
     Outcome,
@@ -59,6 +60,8 @@ class Mission(Frozen):
     reason: str | None = None
     changed: ChangedOrder | None = None
     """What its text makes of the order before it: "again", "no, the study"."""
+    points: tuple[GoToPose, ...] = ()
+    """What a person pointed at on the map, in a row: its whole plan."""
     replies: tuple[str, ...] = ()
     """What the person answered to our questions, in order."""
     questions: tuple[str, ...] = ()

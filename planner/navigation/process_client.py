@@ -36,9 +36,12 @@ CODES = FailureCodes(
 class RouteWorker(SupervisedWorker):
     """Find routes on one site, in another process."""
 
-    def __init__(self, folder: Path, map_id: str, limits: RouteLimits) -> None:
-        """Take the site by path, so that no map is ever copied between processes."""
-        arguments = (str(folder.absolute()), limits_text(limits))
+    def __init__(
+        self, folder: Path, map_id: str, limits: RouteLimits, marks: Path | None = None
+    ) -> None:
+        """Take the site by path, and marks: no map is ever copied between processes."""
+        drawn = () if marks is None else (str(marks.absolute()),)
+        arguments = (str(folder.absolute()), limits_text(limits), *drawn)
         super().__init__(
             *("planner.navigation.process_main", arguments, CODES),
             one_at_a_time=False,

@@ -30,7 +30,7 @@ from planner.plan.responses import (
     Refuse,
     StepPlan,
 )
-from planner.plan.steps import CONTROL, NEEDS_CAMERA, NEEDS_GROWING_MAP, RUNNABLE, Step
+from planner.plan.steps import CONTROL, GIVEN, NEEDS_CAMERA, NEEDS_GROWING_MAP, RUNNABLE, Step
 from planner.plan.tree import parent_of, parents_of
 
 NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
@@ -49,7 +49,7 @@ class Means(Frozen):
     @property
     def runnable(self) -> frozenset[str]:
         """Return the kinds of steps that this robot can do."""
-        drives = RUNNABLE | (NEEDS_GROWING_MAP if self.growing_map else frozenset())
+        drives = RUNNABLE | GIVEN | (NEEDS_GROWING_MAP if self.growing_map else frozenset())
         if not self.camera:
             return drives
         look = {"look"} if self.detector or self.model else set()
@@ -57,8 +57,8 @@ class Means(Frozen):
 
     @property
     def plannable(self) -> frozenset[str]:
-        """Return the kinds that a brain may plan with: it sees no picture to point at."""
-        return self.runnable - POINTS
+        """Return the kinds that a brain may plan with: it points at nothing, picture or map."""
+        return self.runnable - POINTS - GIVEN
 
     @property
     def blind(self) -> Code:
@@ -227,4 +227,6 @@ def lacking(step: Step | StepRecord, blind: Code = Code.NO_CAMERA) -> Code:
 def _lack(kind: str, blind: Code) -> Code:
     if kind in NEEDS_GROWING_MAP:
         return Code.NOT_MAPPING
+    if kind in GIVEN:
+        return Code.POINT_NOT_GIVEN
     return blind if kind in NEEDS_CAMERA else Code.NO_CAPABILITY

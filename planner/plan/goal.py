@@ -115,10 +115,14 @@ class StepRecord(Frozen):
     moved_m: float | None = None  # by odometry, along the heading at the beginning of a move
     turned_rad: float | None = None  # by odometry, counter-clockwise positive
     visited: int | None = None  # places of a patrol reached so far
-    look: bool = False  # a patrol looks round at each of them
+    look: bool = False  # a patrol looks round at each of them; a point is faced from near by
     stops: tuple[PatrolSighting, ...] = ()  # what came of each that is over
     x: int | None = None  # a point of the picture, 0 to 1000 from its left
     y: int | None = None  # and from its top
+    map_id: str | None = None  # of the point below
+    x_m: float | None = None  # a point of that map [m], given by a person
+    y_m: float | None = None
+    yaw_rad: float | None = None  # the heading to stand at there
     found: Found | None = None  # what a step that looks has found
     count: int | None = None  # how many of it
     bill: PictureBill | None = None  # what the vision model has cost this step

@@ -21,7 +21,23 @@ _HOLDS = {
 SEEKS = frozenset({"find", "go_to", "patrol"})
 _SHOWN = set(
     {"kind", "place", "places", "object", "text", "question", "seconds", "angle_rad", "distance_m"}
-    | {"span", "deeds", "look", "x", "y", "times", "side", "word", "time", "after", "before"}
+    | {
+        "span",
+        "deeds",
+        "look",
+        "x",
+        "y",
+        "map_id",
+        "x_m",
+        "y_m",
+        "yaw_rad",
+        "times",
+        "side",
+        "word",
+        "time",
+        "after",
+        "before",
+    }
 )
 """What is asked of a step, and no result of it."""
 

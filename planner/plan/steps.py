@@ -1,8 +1,10 @@
 """Own the closed vocabulary of steps: what a plan may ask of the robot, and nothing else.
 
-No step carries map coordinates or a speed; a place is an id of the vocabulary. Lengths are metres,
-angles radians (counter-clockwise positive), times seconds. Steps that hold steps (``if``, ``try``,
-``repeat``) are bounded by ``planner.plan.check``: how deep, how many, how long.
+No step carries a speed, and none that a brain may write carries map coordinates: a place is an id
+of the vocabulary, and a point of the map stands in ``go_to_pose`` alone, which a person gives.
+Lengths are metres, angles radians (counter-clockwise positive), times seconds. Steps that hold
+steps (``if``, ``try``, ``repeat``) are bounded by ``planner.plan.check``: how deep, how many, how
+long.
 """
 
 from __future__ import annotations
@@ -14,6 +16,8 @@ from pydantic import Field, StringConstraints, model_validator
 
 from planner.plan.base import Frozen
 from planner.plan.vocabulary import PlaceId
+from wire.bounded_types import Fingerprint
+from wire.geometry import Metres, Yaw
 
 Words = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=500)]
 Label = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
@@ -31,6 +35,25 @@ class GoTo(Frozen):
 
     kind: Literal["go_to"] = "go_to"
     place: PlaceId
+
+
+class GoToPose(Frozen):
+    """Drive to a point of the map that a person gave, and to a heading where one is given."""
+
+    kind: Literal["go_to_pose"] = "go_to_pose"
+    map_id: Fingerprint
+    """The map that the point is on: on any other it is nowhere."""
+    x_m: Metres
+    y_m: Metres
+    yaw_rad: Yaw | None = None
+    look: bool = False
+    """Stand near by, where the point is seen from, and face it."""
+
+    @model_validator(mode="after")
+    def _faces_one_way(self) -> Self:
+        if self.look and self.yaw_rad is not None:
+            raise ValueError("go_to_pose takes yaw_rad or look: a look faces the point")
+        return self
 
 
 class StandAt(Frozen):
@@ -251,6 +274,7 @@ class WaitFor(Frozen):
 
 Step = Annotated[
     GoTo
+    | GoToPose
     | StandAt
     | ComeBack
     | ReturnHome
@@ -287,12 +311,17 @@ NEEDS_GROWING_MAP = frozenset({"explore"})
 NEEDS_CAMERA = frozenset({"go_to_object", "go_to_point", "find", "count", "look", "follow"})
 STANDS = frozenset({"recall"})
 """What names a place and drives nowhere."""
-EVERY_KIND = frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
-"""What a plan may hold at all; a robot's own `runnable` is a part of it."""
+GIVEN = frozenset({"go_to_pose"})
+"""What a person alone gives, by pointing: no brain is offered it, and none may write it."""
+EVERY_KIND = (
+    frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS) - GIVEN
+)
+"""What a brain's plan may hold at all; a robot's own `runnable` is a part of it."""
 CONTROL = frozenset({"if", "try", "repeat"})
 """They hold steps and do nothing by themselves."""
 CONDITIONS = frozenset({"look", "find", "ask", "recall", "clock"})
 DRIVES = frozenset(
     {"go_to", "stand_at", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "go_to_point", "find", "follow"}
+    | GIVEN
 )

@@ -9,7 +9,16 @@ from pathlib import Path
 from maps.errors import SiteError
 from maps.yaml_records import parse_json, read_bytes
 from planner.site.polygon import Polygon, border_distance_m, contains
-from wire.fence import MIN_AREA_M2, FenceFile, Outline, SpeedZone, area_m2, crosses_itself, flaw
+from wire.fence import (
+    MIN_AREA_M2,
+    FenceFile,
+    MarksFile,
+    Outline,
+    SpeedZone,
+    area_m2,
+    crosses_itself,
+    flaw,
+)
 from wire.fingerprint import fingerprint
 
 __all__ = ["Fence", "Outline", "SpeedZone", "load_fence"]
@@ -31,6 +40,16 @@ class Fence:
     def outlines(self) -> tuple[Polygon, ...]:
         """Return every outline that the robot's centre may not cross."""
         return self.record.allowed + self.record.keep_outs
+
+    def with_marks(self, marks: MarksFile | None) -> Fence:
+        """Return this fence less what people drew on the map; its hash stays the file's."""
+        if marks is None:
+            return self
+        drawn = tuple(SpeedZone(**zone.model_dump()) for zone in marks.speed_zones)
+        keep_outs = (*self.record.keep_outs, *marks.keep_outs)
+        zones = (*self.record.speed_zones, *drawn)
+        changes = {"keep_outs": keep_outs, "speed_zones": zones}
+        return Fence(self.record.model_copy(update=changes), self.fence_hash)
 
     def allows(self, x_m: float, y_m: float) -> bool:
         """Tell whether the robot's centre may be at a point of ``map``."""

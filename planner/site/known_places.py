@@ -13,11 +13,13 @@ from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from itertools import chain, count
+from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
 from planner.language.folding import unmask
 from planner.plan import Vocabulary
+from planner.site.marks import SiteMarks
 from planner.site.places import Names, Place, squash
 from planner.site.polygon import area_m2
 from planner.site.site import Site
@@ -25,6 +27,7 @@ from planner.site.site_view import SiteView, facts_of, vocabulary_of
 from planner.site.taught_place_check import check_not_order, check_spot, plain_name
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, MAX_KEPT, TaughtPlace, TaughtPlaces
+from wire import MarksFile
 from wire.geometry import Pose2
 
 T = TypeVar("T")
@@ -88,9 +91,12 @@ class KnownPlaces:
         *,
         radius_m: float = 0.3,
         clock: Callable[[], datetime] = _read_clock,
+        marks: Path | None = None,
     ) -> None:
         """Take up what was taught. Raises SiteError where the file is not ours."""
-        self.site = site
+        self.drawn = SiteMarks(site, marks)
+        self.site = self.drawn.site
+        """With the fence less what people drew on the map."""
         self._store, self._radius_m = store, radius_m
         self._survey: PlaceSurvey | None = None
         self._clock = clock
@@ -101,8 +107,6 @@ class KnownPlaces:
         self._listeners: list[Callable[[], None]] = []
         self._kept: tuple[TaughtPlace, ...] = store.load() if store is not None else ()
         self._judge()
-
-    # What is known ------------------------------------------------------------------------------
 
     @property
     def taught_places(self) -> tuple[KeptPlace, ...]:
@@ -138,11 +142,14 @@ class KnownPlaces:
         """Take the source of the robot's pose, which also finds ways to a point."""
         self._survey = survey
 
+    async def keep_marks(self, marks: MarksFile) -> None:
+        """Keep what people drew on the map. Raises OSError; nothing changed then."""
+        self.site = await self.drawn.keep(marks)
+        self._judge()
+
     def listen(self, told: Callable[[], None]) -> None:
         """Have something called after each change."""
         self._listeners.append(told)
-
-    # Changes ------------------------------------------------------------------------------------
 
     async def teach(self, lesson: Lesson) -> tuple[TaughtPlace, bool]:
         """Keep a place and return it, and whether it is new; a name taught before is moved here.
@@ -160,8 +167,6 @@ class KnownPlaces:
                 ``places_unwritable``; nothing changed.
         """
         return await _whole(self._forget(name, other_maps=other_maps))
-
-    # Inside -------------------------------------------------------------------------------------
 
     async def _teach(self, lesson: Lesson) -> tuple[TaughtPlace, bool]:
         async with self._lock:

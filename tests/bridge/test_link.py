@@ -24,6 +24,7 @@ from wire import (
     DecodeFailure,
     Event,
     FenceRequest,
+    MarksRequest,
     Odometry,
     OpKind,
     OpRequest,
@@ -34,8 +35,22 @@ from wire import (
     encode,
     sign,
     sign_fence,
+    sign_marks,
 )
-from wire.keys import DISARM, ESTOP, EVENT, FENCE, KEYS, ODOM, OPS, STOP, WAYPOINTS, Key, Party
+from wire.keys import (
+    DISARM,
+    ESTOP,
+    EVENT,
+    FENCE,
+    KEYS,
+    MARKS,
+    ODOM,
+    OPS,
+    STOP,
+    WAYPOINTS,
+    Key,
+    Party,
+)
 from wire.keys import STATUS as STATUS_KEY
 from wire.session import Publisher, Session, open_session
 
@@ -145,7 +160,8 @@ def arrived(inbox: Inbox, key: Key[Any]) -> int:
 def test_every_key_is_heard(ends: Ends, key: Key[Record]) -> None:
     message = EXAMPLES[key.message]
     mouth = ends.mouth(key)
-    handed_on = "FenceArrival(id='fence-1'" if key is FENCE else repr(message)
+    texts = {FENCE: "FenceArrival(id='fence-1'", MARKS: "FenceArrival(id='marks-1'"}
+    handed_on = texts.get(key, repr(message))
 
     def there() -> bool:
         mouth.put(message)
@@ -174,6 +190,24 @@ def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends)
 
     assert arrives("f1", "{} ") == FenceArrival("f1", "cli", "n", True, "{} ")
     assert arrives("f2", "{}") == FenceArrival("f2", "cli", "n", False, "")
+
+
+def test_marks_go_on_with_their_text_only_where_the_proof_binds_it(ends: Ends) -> None:
+    mouth, robot_id = ends.other.publisher(MARKS), core_config().robot.id
+    right = sign_marks(VIRTUAL_KEY, robot_id, "n", "m1", "{} ")
+    wrong = sign_fence(VIRTUAL_KEY, robot_id, "n", "m2", "{} ")
+    came: dict[str, FenceArrival] = {}
+
+    def there() -> bool:
+        for request_id, proof in (("m1", right), ("m2", wrong), ("m3", None)):
+            mouth.put(MarksRequest(id=request_id, source="cli", marks="{} ", proof=proof))
+        came.update({each.id: each for each in ends.drain().marks})
+        return len(came) == 3
+
+    assert until(there)
+    assert came["m1"] == FenceArrival("m1", "cli", "n", True, "{} ")
+    assert came["m2"] == FenceArrival("m2", "cli", "n", False, "")
+    assert came["m3"] == FenceArrival("m3", "cli", None, False, "")
 
 
 @pytest.mark.parametrize("key", HEARD, ids=lambda key: key.path)

@@ -179,6 +179,7 @@ def test_names_of_any_kind_are_text(
     assert page.title() != "owned"
     assert page.locator("#page img[src=x], #page script").count() == 0
     click_at(page, robot.judge.truth.base_in_map.x_m, robot.judge.truth.base_in_map.y_m)
+    page.locator(".map-choice button.main").click()
     page.locator(".turn").first.wait_for()
     assert_fits(page)
     page.click("#tab-places")

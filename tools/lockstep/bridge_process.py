@@ -11,9 +11,12 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, cast
 
 from bridge.core import ON_TIME, BridgeState, CoreConfig, Decision, Inbox, initial
+from bridge.core.inbox import FenceDone
+from bridge.core.state_orders import PendingMarks
 from bridge.drive import Drive, SimDrive
 from bridge.link import BridgeLink
-from wire import VIRTUAL_KEY, DriveCommand, Event, Status
+from bridge.marks_update import read_marks
+from wire import VIRTUAL_KEY, ConfigError, DriveCommand, Event, Status
 
 if TYPE_CHECKING:
     from tools.lockstep.bus import Port
@@ -46,9 +49,23 @@ class BridgeProcess:
         self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
         self.reasons: tuple[str, ...] = ()
         self._step = step
+        self._asked: PendingMarks | None = None
         session = cast("Session", port)  # a port has a session's publishers and subscribers
         self._link = BridgeLink(session, config.robot.id, VIRTUAL_KEY)
         self._drive = drive or SimDrive(session, config.boot)
+
+    def _prepare(self) -> FenceDone | None:
+        """Do a tick later what the desk does in its thread; nothing is written."""
+        asked, self._asked = self._asked, self.state.marks.asked
+        fence = self.config.fence
+        if asked is None or asked is not self._asked or fence is None:
+            return None
+        try:
+            read_marks(asked.text, self.config.map_id)
+        except ConfigError as wrong:
+            return FenceDone(asked.id, wrong.code, wrong.detail[:400])
+        fence.with_marks(asked.text)
+        return FenceDone(asked.id, "ok", "prepared")
 
     def turn(self, now_s: float) -> Decision:
         """Drain, step, drive, tell: the shell's tick."""
@@ -61,6 +78,7 @@ class BridgeProcess:
             real_time=True,
             chance=chance,
             imu=self._drive.take_imu(),
+            marks_done=self._prepare(),
         )
         decision = self._step(self.config, self.state, inbox, now_s)
         self._drive.write(decision.command)

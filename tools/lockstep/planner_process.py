@@ -22,9 +22,19 @@ from planner.mission.state import GoalKey
 from planner.navigation import RouteLimits
 from planner.navigation.frontier import FrontierMemory
 from planner.navigation.process_main import GrowingRouter
+from planner.navigation.router import Router
 from tools.lockstep.latencies import TICK_S
 from tools.lockstep.tick_loop import TickLoop
-from wire import VIRTUAL_KEY, OpKind, OpRequest, signed_request
+from wire import (
+    VIRTUAL_KEY,
+    MarksFile,
+    MarksRequest,
+    OpKind,
+    OpRequest,
+    sign_marks,
+    signed_request,
+)
+from wire.fence import fence_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
@@ -38,8 +48,8 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport, RouteRequest, RouteResult, ScanObservation
     from planner.navigation.obstacle_memory import ObstacleMemory
-    from planner.navigation.router import Router
-    from planner.plan import BrainTag, Language
+    from planner.plan import BrainTag, GoToPose, Language
+    from planner.site import KnownPlaces
     from sim import SimRobot
     from tools.lockstep.bus import Port
     from tools.lockstep.eyes import PerceptionProcess
@@ -140,10 +150,27 @@ class PacedRouter:
         return self.newest().observe(self.memory, seen)
 
 
+class MarkedRouter:
+    """Give the router of the map less what people drew on it, as the route process does."""
+
+    def __init__(self, scene: LockstepScene) -> None:
+        self._scene, self._router = scene, scene.router
+        self.places: KnownPlaces | None = None
+        """Of the planner; no closure, which a copy of the world would not take along."""
+        self._fence = scene.site.fence
+
+    def __call__(self) -> Router:
+        """Return the router of now."""
+        site = self.places.site if self.places is not None else self._scene.site
+        if site.fence.record != self._fence.record:
+            self._router, self._fence = Router(site, RouteLimits.of(self._scene.robot)), site.fence
+        return self._router
+
+
 def _routers(scene: LockstepScene) -> Callable[[], Router]:
     """Return what gives the router of the map as it is known now."""
     if not scene.grows:
-        return lambda: scene.router
+        return MarkedRouter(scene)
     growing = GrowingRouter(scene.site, RouteLimits.of(scene.robot))
     return lambda: growing.router
 
@@ -192,7 +219,8 @@ class PlannerProcess:
             new_id=self._new_id,
         )
         self.obstacle_memory = scene.router.new_memory()
-        router = PacedRouter(_routers(scene), pace.route * TICK_S, self.obstacle_memory)
+        newest = _routers(scene)
+        router = PacedRouter(newest, pace.route * TICK_S, self.obstacle_memory)
         self.missions = Missions(
             site=scene.site,
             robot=scene.robot,
@@ -203,6 +231,8 @@ class PlannerProcess:
             planner_id=planner_id,
             clocks=Clocks(self._tasks.time, self._wall_s, new_goal_id),
         )
+        if isinstance(newest, MarkedRouter):
+            newest.places = self.missions.memory
         self.missions.show_scans(router)
         self.missions.loop.hub.join(self)
         self.run(now_s, self.missions.start(rounds=False))
@@ -277,6 +307,28 @@ class PlannerProcess:
         """
         act = self._act_behind(text)
         self.run(now_s, self.missions.submit(text, language=language, act=act))
+
+    def go(self, points: tuple[GoToPose, ...], now_s: float) -> None:
+        """Take points of the map by the planner's own door, with a person's act."""
+        self.run(now_s, self.missions.points.give(points, act=self._sign("resume")))
+
+    def draw(self, marks: MarksFile, now_s: float) -> Request:
+        """Put marks in force: the bridge first, then the routes, as the API does."""
+        return self.run(now_s, self._draw(marks))
+
+    async def _draw(self, marks: MarksFile) -> Answer | None:
+        text, status, request_id = fence_text(marks), self.status, self._new_id()
+        if status is None:
+            return None
+        proof = sign_marks(VIRTUAL_KEY, status.robot, status.nonce, request_id, text)
+        request = MarksRequest(id=request_id, source="api", marks=text, proof=proof)
+        try:
+            answer = await self._link.offer_marks(request)
+        except LinkError:
+            return None
+        if answer.accepted:
+            await self.missions.memory.keep_marks(marks)
+        return answer
 
     def answer(self, goal_id: str, text: str, now_s: float) -> None:
         """Take the answer to a goal's question. Raises MissionError where it takes none."""

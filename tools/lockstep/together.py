@@ -10,16 +10,19 @@ from tools.lockstep.eyes import PerceptionProcess
 from tools.lockstep.goal_handle import GoalHandle
 from tools.lockstep.truth_detector import TruthFinder
 from tools.lockstep.world import TooLong, World
-from wire import Mode
+from wire import MarksFile, Mode
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from planner.brain import Brain
     from planner.brain.image_questions import Looker
-    from planner.plan import Language
+    from planner.plan import GoToPose, Language
+    from planner.site.polygon import Polygon
     from tools.lockstep.disturbance import Disturbance
     from tools.lockstep.planner_process import Request
     from tools.lockstep.truth_detector import Finder
-    from wire import OpKind, Pose2
+    from wire import OpKind, Pose2, SlowMark
 
 READY_S = 20.0
 
@@ -47,6 +50,21 @@ class LockstepWorld(World):
         """Give a goal in words."""
         self.planner.say(text, language, self.now_s)
         return self.goal(f"goal-{self._goals}")
+
+    def go(self, *points: GoToPose) -> GoalHandle:
+        """Give a goal by points of the map, in a row."""
+        self.planner.go(points, self.now_s)
+        return self.goal(f"goal-{self._goals}")
+
+    def draw(self, keep_outs: Sequence[Polygon] = (), slow: Sequence[SlowMark] = ()) -> Request:
+        """Draw on the map, in place of all that was drawn before."""
+        marks = MarksFile(
+            version=1,
+            map_id=self.scene.site.map_id,
+            keep_outs=tuple(keep_outs),
+            speed_zones=tuple(slow),
+        )
+        return self.planner.draw(marks, self.now_s)
 
     def goal(self, goal_id: str) -> GoalHandle:
         """Follow a goal that was given before: in a copy of a world, its own."""

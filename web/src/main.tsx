@@ -6,6 +6,7 @@ import "./styles/layout.css";
 import "./styles/panels.css";
 import "./styles/places.css";
 import "./styles/map.css";
+import "./styles/points.css";
 import "./styles/eyes.css";
 import "./styles/people.css";
 import "./styles/missions.css";

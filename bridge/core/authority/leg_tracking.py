@@ -52,10 +52,10 @@ def hear_waypoints(tick: TickContext, new: Waypoints) -> None:
         return
     refusals = _faults(tick, new)
     if refusals:
-        if refusals != ("no_pose",):
-            bad(tick, refusals[0])
+        if refusals == ("no_pose",) or _crosses_marks_alone(tick, new, refusals):
+            tick.drop(refusals[0])
         else:
-            tick.drop("no_pose")
+            bad(tick, refusals[0])
         tick.reasons.extend(refusals[1:])
         _name_leg(tick, new, refusals[0])
         return
@@ -104,7 +104,15 @@ def _faults(tick: TickContext, new: Waypoints) -> tuple[str, ...]:
     if tick.robot_in_map is None:
         return ("no_pose",)
     limits = tick.config.robot.limits
-    return check_horizon(new.points, tick.robot_in_map, limits.max_speed_mps, tick.config.fence)
+    return check_horizon(new.points, tick.robot_in_map, limits.max_speed_mps, tick.fence)
+
+
+def _crosses_marks_alone(tick: TickContext, new: Waypoints, refusals: tuple[str, ...]) -> bool:
+    """Tell whether a horizon is wrong by a mark alone: a planner may not know of it yet."""
+    here, fence = tick.robot_in_map, tick.config.fence
+    if refusals != ("fence_crossed",) or here is None or fence is tick.fence:
+        return False
+    return not check_horizon(new.points, here, tick.config.robot.limits.max_speed_mps, fence)
 
 
 def _name_leg(tick: TickContext, new: Waypoints, refusal: str | None) -> None:

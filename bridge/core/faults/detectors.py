@@ -8,10 +8,12 @@ stand in :mod:`bridge.core.faults.detect_motion`.
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.message_limits import FULL_S
 from bridge.core.faults import detect_motion
+from bridge.core.motion.braking import reaction_s, speed_before
 from bridge.core.sensing.sensor_update import (
     GAP_S,
     GAPS,
@@ -223,15 +225,32 @@ def no_range(tick: TickContext, dirty: Dirty) -> None:
             dirty.append((stage, "the lidar says nothing"))
 
 
+ZONE_POSE_S = 0.1
+"""Localization's period: by so much the pose may be late, as at the fence's gate."""
+
+
 def zone(tick: TickContext, dirty: Dirty) -> None:
-    """Find the slowest zone that the robot is in; ``cap`` takes its value."""
-    fence, here, watch = tick.config.fence, tick.robot_in_map, tick.s.watch
+    """Find the slowest zone that the robot is in, or must slow down for; ``cap`` takes its value.
+
+    Before a zone the robot may be no faster than lets it be slow enough at the outline, wherever it
+    is headed: a zone that it passes beside costs it the speed of that last half metre.
+    """
+    fence, here, watch = tick.fence, tick.robot_in_map, tick.s.watch
     watch.zone_mps = None
     if fence is None or not fence.zones or here is None:
         return
-    watch.zone_mps = fence.max_speed_mps(here.x_m, here.y_m)
-    if watch.zone_mps is not None:
-        dirty.append(("SPEED_ZONE.0", f"at most {watch.zone_mps:.2f} m/s here"))
+    robot, learnt = tick.config.robot, tick.s.learnt
+    limits, lag_s = robot.limits, robot.drive.late_s + learnt.lag_more_s
+    reaction = reaction_s(0.0, ZONE_POSE_S, lag_s, limits)
+    decel = limits.max_decel_mps2 * learnt.decel_share
+    allowed = [
+        speed_before(gap_m, mps, decel, reaction)
+        for gap_m, mps in fence.zones_near(here.x_m, here.y_m)
+    ]
+    slowest = min(allowed, default=inf)
+    if slowest < limits.max_speed_mps:
+        watch.zone_mps = slowest
+        dirty.append(("SPEED_ZONE.0", f"at most {slowest:.2f} m/s here"))
 
 
 def loop(tick: TickContext, dirty: Dirty) -> None:

@@ -128,8 +128,8 @@ ROWS: tuple[FaultRow, ...] = (
          _do("likewise", _CAP, "T", clean_s=2.0, cap_mps=0.1)),
     _row("NO_RANGE", "no obstacle source is configured or alive",
          _do("at once", _HOLD2, "WX"), _do("at once", _CAP, "T", cap_mps=0.2)),
-    _row("SPEED_ZONE", "the robot is inside a speed zone of the fence; outside there is no speed "
-         "to cap to, so it ends at once",
+    _row("SPEED_ZONE", "the robot is inside a speed zone of the fence or of the marks, or so near "
+         "that it must slow down for it; elsewhere there is no speed to cap to, so it ends at once",
          _do("at once", _CAP, "WX", clean_s=0.0, cap_zone=True)),
     _row("POSE_LOST", "localization older than 300 ms, poor, or of another odom_id; an external "
          "brain is held too, because without a pose no fence and no zone can hold it",

@@ -69,7 +69,7 @@ HAZARDS: tuple[Hazard, ...] = (
            (f"{_MOTION}::TestSight::test_without_a_living_lidar_there_is_no_range",)),
     Hazard("The robot is fast where people pass, as at a narrow door", "SPEED_ZONE",
            "faults.detectors.zone",
-           (f"{_MOTION}::test_a_zone_caps_at_its_speed_while_the_robot_is_in_it",)),
+           (f"{_MOTION}::test_a_zone_caps_at_its_speed_from_the_outline_on_while_the_robot_is_in_it",)),
     Hazard("The robot follows a way, or another brain, without knowing where it is", "POSE_LOST",
            "faults.detectors.pose",
            (f"{_WINDOWS}::test_a_lost_pose_holds",

@@ -6,9 +6,11 @@ that a tick asks is prepared once, cell by cell. Reads no file and knows no robo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from math import floor, inf, sqrt
+
+from wire.fence import MarksFile
 
 Point = tuple[float, float]
 Polygon = tuple[Point, ...]
@@ -133,6 +135,7 @@ SIGHT_M = 1.0
 """Distances to the boundary are told up to here; nobody acts on a fence that is further off."""
 _CELLS = 48  # at most so many along either side
 _MIN_CELL_M = 0.25
+_MARKED_KEPT = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,6 +144,16 @@ class Zone:
 
     polygon: Polygon
     max_speed_mps: float
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneShape:
+    """Hold what every tick asks of a zone."""
+
+    zone: Zone
+    edges: tuple[Edge, ...]
+    box: tuple[float, float, float, float]
+    """Least x, y and most x, y [m] from which it can be seen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,9 +176,12 @@ class FenceGrid:
     zones: tuple[Zone, ...]
     boundary: tuple[Edge, ...]
     """The lines that part inside from outside: no line between two overlapping outlines is one."""
+    shapes: tuple[ZoneShape, ...]
     cell_m: float
     cells: dict[tuple[int, int], FenceCell]
     """Every square from which the boundary, or its inside, can be seen."""
+    marked: dict[str, FenceGrid] = field(default_factory=dict, compare=False, repr=False)
+    """This fence less marks, by their text, as far as it was asked for."""
 
     def allows(self, x_m: float, y_m: float) -> bool:
         """Return whether the robot's centre may be at a point; NaN is nowhere allowed."""
@@ -200,10 +216,33 @@ class FenceGrid:
         edges = cell.edges if cell is not None and short else self.boundary
         return any(meet(x0_m, y0_m, dx, dy, edge) for edge in edges)
 
-    def max_speed_mps(self, x_m: float, y_m: float) -> float | None:
-        """Return the slowest zone's speed at a point; None where there is no zone."""
-        speeds = [z.max_speed_mps for z in self.zones if contains(z.polygon, x_m, y_m)]
-        return min(speeds, default=None)
+    def zones_near(self, x_m: float, y_m: float) -> list[tuple[float, float]]:
+        """Return how far each zone within sight is [m], 0 inside it, with its speed."""
+        found = []
+        for shape in self.shapes:
+            low_x, low_y, high_x, high_y = shape.box
+            if not (low_x <= x_m <= high_x and low_y <= y_m <= high_y):
+                continue
+            inside = contains(shape.zone.polygon, x_m, y_m)
+            gap_m = 0.0 if inside else nearest_m(shape.edges, x_m, y_m)
+            found.append((gap_m, shape.zone.max_speed_mps))
+        return found
+
+    def with_marks(self, text: str) -> FenceGrid:
+        """Return this fence less what people drew on the map, by its text; no text, no change.
+
+        Prepared once: the thread that reads marks asks first, so that no tick waits for it.
+        """
+        found = self.marked.get(text)
+        if found is None:
+            marks = MarksFile.model_validate_json(text)
+            drawn = tuple(Zone(each.polygon, each.max_speed_mps) for each in marks.speed_zones)
+            keep_outs = (*self.keep_outs, *marks.keep_outs)
+            found = build_fence(self.map_id, self.allowed, keep_outs, (*self.zones, *drawn))
+            while len(self.marked) >= _MARKED_KEPT:
+                self.marked.pop(next(iter(self.marked)))
+            self.marked[text] = found
+        return found
 
     def _cell(self, x_m: float, y_m: float) -> FenceCell | None:
         if abs(x_m) < 1e6 and abs(y_m) < 1e6:
@@ -235,7 +274,14 @@ def build_fence(
         for i in _range(xs, cell_m)
         for j in _range(ys, cell_m)
     }
-    return FenceGrid(map_id, allowed, keep_outs, zones, boundary, cell_m, cells)
+    shapes = tuple(map(_shape_of, zones))
+    return FenceGrid(map_id, allowed, keep_outs, zones, boundary, shapes, cell_m, cells)
+
+
+def _shape_of(zone: Zone) -> ZoneShape:
+    xs, ys = [x for x, _ in zone.polygon], [y for _, y in zone.polygon]
+    box = (min(xs) - SIGHT_M, min(ys) - SIGHT_M, max(xs) + SIGHT_M, max(ys) + SIGHT_M)
+    return ZoneShape(zone, tuple(edges_of(zone.polygon)), box)
 
 
 def _range(values: list[float], cell_m: float) -> range:

@@ -177,7 +177,7 @@ def is_outside_fence(tick: TickContext) -> bool:
 
     It is said, and keeps nobody from arming: a stick that is to bring it back needs torque.
     """
-    fence, here = tick.config.fence, tick.robot_in_map
+    fence, here = tick.fence, tick.robot_in_map
     return fence is not None and here is not None and not fence.allows(here.x_m, here.y_m)
 
 

@@ -74,6 +74,14 @@ def speed_within(s_m: float, decel_mps2: float, reaction: float) -> float:
     return 2 * s_m / (reaction + sqrt(reaction * reaction + 2 * s_m / decel_mps2))
 
 
+def speed_before(gap_m: float, slow_mps: float, decel_mps2: float, reaction: float) -> float:
+    """Return the speed that is down to a slower one within a gap: v t + (v^2 - u^2) / 2a = s."""
+    if not gap_m > 0.0:
+        return slow_mps
+    at = decel_mps2 * reaction
+    return max(slow_mps, sqrt(at * at + slow_mps * slow_mps + 2 * decel_mps2 * gap_m) - at)
+
+
 def speed_scale(
     free_m: float,
     twist: Twist2,

@@ -109,7 +109,7 @@ def _shut(asked: Twist2, passed: Twist2) -> bool:
 
 def _inside_fence(tick: TickContext, twist: Twist2) -> Twist2:
     """Scale a motion so that it stops clear of the fence; a hand on the stick may cross, slowly."""
-    fence, here = tick.config.fence, tick.robot_in_map
+    fence, here = tick.fence, tick.robot_in_map
     if fence is None:
         return twist
     if here is None:  # where the fence is cannot be told: no row is trusted to have held already

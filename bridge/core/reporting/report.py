@@ -164,6 +164,7 @@ def build(tick: TickContext) -> Status:
         blocked=s.gate.blocked,
         robot_hash=config.robot_hash,
         fence_hash=config.fence_hash,
+        marks_hash=s.marks.hash,
         map_id=config.map_id,
         operator_metres=s.grants.operator_metres,
         operator_seconds=s.grants.operator_seconds,

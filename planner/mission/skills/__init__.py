@@ -30,7 +30,7 @@ from planner.mission.skills.ask import ask
 from planner.mission.skills.conditions import clock, judge_condition
 from planner.mission.skills.count import count
 from planner.mission.skills.decide import decide
-from planner.mission.skills.drive_to_place import come_back, go_to, return_home
+from planner.mission.skills.drive_to_place import come_back, go_to, go_to_pose, return_home
 from planner.mission.skills.explore import explore
 from planner.mission.skills.find import find
 from planner.mission.skills.follow import follow
@@ -52,6 +52,7 @@ from planner.plan import Code
 SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProxyType(
     {
         "go_to": go_to,
+        "go_to_pose": go_to_pose,
         "stand_at": stand_at,
         "come_back": come_back,
         "return_home": return_home,

@@ -126,6 +126,8 @@ class DriveLeg:
     """The leg ends where this point is seen from, on the map, and faces it."""
     sees_from_m: float = 0.0
     """No nearer to it."""
+    exact: bool = False
+    """The leg ends at its goal or not at all: free floor beside it will not do."""
 
 
 @dataclass(frozen=True, slots=True)

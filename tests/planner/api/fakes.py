@@ -29,7 +29,7 @@ from planner.navigation import (
 )
 from planner.people import People
 from planner.perception import Picture, Sight, Thing
-from planner.plan import Goal, GoalState, Language
+from planner.plan import Goal, GoalState, GoToPose, Language
 from planner.rehearsal import Rehearser
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
@@ -43,6 +43,7 @@ from wire import (
     HintCode,
     HintVerdict,
     LocalizerStatus,
+    MarksRequest,
     OpKind,
     OpRequest,
     PoseHint,
@@ -86,6 +87,26 @@ class FakeGoals:
         self.stops: list[str] = []
         self.leg: Leg | None = None
         self.asks = False
+
+    @property
+    def points(self) -> FakeGoals:
+        return self
+
+    async def give(
+        self,
+        points: tuple[GoToPose, ...],
+        *,
+        language: Language,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        act: OpRequest | None = None,
+        by: str = "api",
+    ) -> str:
+        self.doors.append(by)
+        self.calls.append(("give", points, language, confirm, replace, idempotency_key))
+        self.acts.append(act)
+        return "g1"
 
     def hears_stop(self, text: str) -> bool:
         return is_stop(text)
@@ -167,6 +188,7 @@ class FakeRobot:
         self._status = status
         self.asked: list[tuple[OpKind, OpRequest]] = []
         self.offered: list[FenceRequest] = []
+        self.drawn: list[MarksRequest] = []
         self.hints: list[PoseHint] = []
         self.hint_code: HintCode | None = "accepted"
         self.hint_score = 0.4
@@ -208,6 +230,10 @@ class FakeRobot:
 
     async def ask(self, kind: OpKind, request: OpRequest) -> Answer | None:
         self.asked.append((kind, request))
+        return self.verdict
+
+    async def offer_marks(self, request: MarksRequest) -> Answer | None:
+        self.drawn.append(request)
         return self.verdict
 
     async def offer_fence(self, request: FenceRequest) -> Answer | None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from planner.api.access import Access, AccessError, Role, is_loopback
+from planner.api.access import Access, AccessError, is_loopback
+from planner.people import Role
 
 LOCAL = Access("127.0.0.1")
 OPEN = Access(

@@ -10,6 +10,7 @@ from starlette.testclient import TestClient
 
 from planner.api import Access
 from planner.api.goals import AT_ONCE
+from planner.plan import GoToPose, Language
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 
@@ -89,6 +90,63 @@ def test_steering_takes_nothing_for_what_it_is_not(
 @pytest.mark.parametrize("key", ["confirm", "replace"])
 def test_an_option_of_a_goal_is_true_or_false(client: TestClient, key: str) -> None:
     assert client.post("/v1/goals", json={"text": "go", key: "yes"}).status_code == 422
+
+
+MAP = "0123456789abcdef"
+
+
+def test_points_of_the_map_are_given_with_its_id_and_in_a_row(
+    client: TestClient, services: FakeServices
+) -> None:
+    points = [{"x_m": 1.5, "y_m": 2, "yaw_rad": 1.0}, {"x_m": 0.0, "y_m": -1.0, "look": True}]
+    body = {"points": points, "map_id": MAP, "language": "zh", "replace": True}
+    answer = client.post("/v1/goals", json=body, headers={"Idempotency-Key": "k"})
+    assert answer.status_code == 202, answer.text
+    row = (
+        GoToPose(map_id=MAP, x_m=1.5, y_m=2.0, yaw_rad=1.0),
+        GoToPose(map_id=MAP, x_m=0.0, y_m=-1.0, look=True),
+    )
+    assert services.goals.calls == [("give", row, Language.ZH, False, True, "k")]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        {},
+        {"text": "go", "points": [{"x_m": 1.0, "y_m": 2.0}], "map_id": MAP},
+        {"points": [{"x_m": 1.0, "y_m": 2.0}]},
+        {"text": "go", "map_id": MAP},
+        {"points": [], "map_id": MAP},
+        {"points": [{"x_m": 1.0, "y_m": 2.0}] * 21, "map_id": MAP},
+        {"points": [{"x_m": 1.0}], "map_id": MAP},
+        {"points": [{"x_m": "1", "y_m": 2.0}], "map_id": MAP},
+        {"points": [{"x_m": 1e9, "y_m": 2.0}], "map_id": MAP},
+        {"points": [{"x_m": 1.0, "y_m": 2.0, "yaw_rad": 7.0}], "map_id": MAP},
+        {"points": [{"x_m": 1.0, "y_m": 2.0, "yaw_rad": 1.0, "look": True}], "map_id": MAP},
+        {"points": [{"x_m": 1.0, "y_m": 2.0, "speed": 9.0}], "map_id": MAP},
+        {"points": [{"x_m": 1.0, "y_m": 2.0}], "map_id": "../../etc"},
+    ],
+)
+def test_what_is_no_row_of_points_is_refused_in_both_languages(
+    client: TestClient, services: FakeServices, body: dict[str, Any]
+) -> None:
+    answer = client.post("/v1/goals", json=body)
+    assert (answer.status_code, code(answer)) == (422, "invalid_request")
+    assert set(answer.json()["message"]) == {"en", "zh"}
+    assert services.goals.calls == []
+
+
+def test_a_point_that_is_no_number_is_refused(client: TestClient, services: FakeServices) -> None:
+    body = f'{{"points": [{{"x_m": NaN, "y_m": 2.0}}], "map_id": "{MAP}"}}'
+    answer = client.post("/v1/goals", content=body, headers={"content-type": "application/json"})
+    assert answer.status_code == 422
+    assert services.goals.calls == []
+
+
+def test_points_have_the_rate_of_goals(client: TestClient) -> None:
+    body = {"points": [{"x_m": 1.0, "y_m": 2.0}], "map_id": MAP}
+    answers = [client.post("/v1/goals", json=body) for _ in range(AT_ONCE + 20)]
+    assert "too_many_goals" in [code(each) for each in answers if each.status_code == 429]
 
 
 @pytest.mark.parametrize("text", ["yes", "好的", "go to the kitchen"])

@@ -13,7 +13,7 @@ from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
 from planner.language.reading import ChangeReading
 from planner.language.sentence import language_of, parse
-from planner.mission import reception
+from planner.mission import request_keys
 from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.errors import IdempotencyConflict, QueueFull
@@ -21,12 +21,12 @@ from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
 from planner.mission.reception import (
     AnswerReception,
     Reception,
-    Repeats,
     is_active,
     receive,
     receive_answer,
 )
 from planner.mission.reducer import advance
+from planner.mission.request_keys import Repeats
 from planner.mission.state import MAX_OPEN, GoalKey, Mission, MissionState
 from planner.plan import ChangedOrder, Code, GoalState, Language, Outcome, Vocabulary
 from tests.planner.mission.fakes import FACTS
@@ -340,7 +340,7 @@ def test_what_is_said_to_the_planner_itself_needs_no_room() -> None:
 def test_a_request_that_was_not_taken_may_come_anew_and_the_oldest_are_forgotten_first(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(reception, "MAX_KEYS", 2)
+    monkeypatch.setattr(request_keys, "MAX_KEYS", 2)
     known = Repeats([GoalKey("a", "body", "g0")])
     for key in ("b", "c"):
         known.remember(GoalKey(key, "body", key))

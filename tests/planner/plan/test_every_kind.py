@@ -1,8 +1,8 @@
-"""Check that the list of all kinds of steps is the union's own."""
+"""Check that the lists of kinds of steps are the union's own."""
 
 from __future__ import annotations
 
-from planner.plan import CONDITIONS, DRIVES, EVERY_KIND, NEEDS_CAMERA, PLAN, RUNNABLE
+from planner.plan import CONDITIONS, DRIVES, EVERY_KIND, GIVEN, NEEDS_CAMERA, PLAN, RUNNABLE
 
 
 def test_every_kind_is_what_a_plan_may_hold() -> None:
@@ -12,5 +12,6 @@ def test_every_kind_is_what_a_plan_may_hold() -> None:
         for shape in shapes
         if "properties" in shape
     }
-    assert kinds - {None, "plan", "answer", "clarify", "refuse"} == EVERY_KIND | CONDITIONS
-    assert RUNNABLE | NEEDS_CAMERA | DRIVES <= EVERY_KIND
+    assert kinds - {None, "plan", "answer", "clarify", "refuse"} == EVERY_KIND | GIVEN | CONDITIONS
+    assert RUNNABLE | NEEDS_CAMERA | DRIVES - GIVEN <= EVERY_KIND
+    assert not EVERY_KIND & GIVEN

@@ -16,6 +16,7 @@ from planner.language.catalogue import message, template
 from planner.language.place_lists import known_places, rejection_outcome
 from planner.plan import (
     DRIVES,
+    GIVEN,
     NEEDS_CAMERA,
     PLAN,
     RUNNABLE,
@@ -52,6 +53,7 @@ HOME = Vocabulary(entries=(entry("kitchen", "kitchen", "厨房"), entry("study",
 
 STEPS: list[dict[str, Any]] = [
     {"kind": "go_to", "place": "kitchen"},
+    {"kind": "go_to_pose", "map_id": "0123456789abcdef", "x_m": 1.5, "y_m": 2.0, "yaw_rad": 1.5},
     {"kind": "come_back"},
     {"kind": "return_home"},
     {"kind": "wait", "seconds": 5.0},
@@ -196,8 +198,8 @@ def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
         assert verdict is None
         return
     assert verdict is not None
-    camera = step["kind"] in NEEDS_CAMERA
-    lack = Code.NO_CAMERA if camera else Code.NOT_MAPPING
+    kinds = ((NEEDS_CAMERA, Code.NO_CAMERA), (GIVEN, Code.POINT_NOT_GIVEN))
+    lack = next((code for kinds_of, code in kinds if step["kind"] in kinds_of), Code.NOT_MAPPING)
     assert rejection_outcome(verdict, HOME).code is lack
     chinese = rejection_outcome(verdict, HOME).message.zh.replace("`pons up --map", "")
     assert not re.search("[a-z]{2}", chinese), chinese

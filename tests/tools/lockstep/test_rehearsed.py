@@ -14,8 +14,8 @@ METRES, SECONDS = 0.05, 0.15
 
 @pytest.mark.parametrize(
     "order",
-    ["go to the living room", "go to the sofa, wait 2 seconds, then go home", "go forward 0.5 metres",
-     "turn left 200 degrees, then go to the kitchen"],
+    ["go to the living room", "go to the sofa, wait 2 seconds, then go home",
+     "go forward 0.5 metres", "turn left 200 degrees, then go to the kitchen"],
 )  # fmt: skip
 def test_a_drive_takes_what_its_rehearsal_told(
     ready: Callable[..., LockstepWorld], order: str

@@ -1,15 +1,29 @@
-/** Show the map, and make a click on it a goal: at once when idle, after a choice when busy. */
+/** Show the map; a click on it, or Enter at the crosshair, opens what can be done there. */
 import { computed, effect, signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { things } from "../eyes/sight";
 import { orderTo } from "../eyes/words";
 import { say, t } from "../i18n";
-import { seconds } from "../panels/format";
+import { fixed, seconds } from "../panels/format";
 import { toTeaching } from "../panels/Tabs";
 import { followGhost } from "../rehearse/ghost";
 import { give, tell } from "../state/acts";
 import { fresh } from "../state/moment";
 import { picked, picking, pointAsked } from "../state/picking";
+import {
+  addCorner,
+  addToRow,
+  crosshair,
+  drawn,
+  facing,
+  goTo,
+  marksShown,
+  menu,
+  row,
+  startPointing,
+  toGo,
+  trail,
+} from "../state/pointing";
 import { steady } from "../state/steady";
 import {
   about,
@@ -32,37 +46,60 @@ import {
 import { visible } from "../state/visible";
 import { Cells } from "./cells";
 import { isShown, LAYERS, toggleLayer } from "./layers";
+import { MarkList, MapTools } from "./MapTools";
+import { headingTo, stepped } from "./outline";
+import { PointMenu, type Target } from "./PointMenu";
 import { type Point, resolve, thingAt } from "./resolve";
 import { samePose, sameScan } from "./unmoved";
 import { MapView } from "./view";
 
-/** What a click means: its name, and the order to go there. */
-type Target = { readonly name: string; readonly order: string };
-type Choice = Target & { readonly left: number; readonly top: number };
-
-const choice = signal<Choice | null>(null);
+const spot = signal({ left: 0, top: 0 });
+const follows = signal(false);
 
 export function MapPanel() {
   const place = useRef<HTMLDivElement>(null);
   useEffect(() => {
     if (place.current === null) return;
-    const view: MapView = new MapView(place.current, (point) => clicked(point, view));
-    const ends = [...follow(view), () => view.close()];
+    const view: MapView = new MapView(
+      place.current,
+      (point) => clicked(point, view),
+      (point) => (hovered.value = point),
+    );
+    shownView.value = view;
+    const ends = [startPointing(), ...follow(view), () => view.close()];
     return () => {
       for (const end of ends) end();
     };
   }, []);
   return (
     <section class="map-panel" aria-label={t("map.label")}>
-      <div ref={place} class="map" id="map" />
+      <div
+        ref={place}
+        class="map"
+        id="map"
+        role="application"
+        aria-label={t("point.keys")}
+        tabIndex={0}
+        onKeyDown={pressed}
+        onPointerUp={turnedTo}
+      />
       <div class="map-notes">
         <Ages />
         <ByItsWheels />
         <WhyItBends />
+        <ToGo />
       </div>
       <LayerSwitches />
       <Growing />
-      {choice.value && <Ask choice={choice.value} />}
+      <MapTools />
+      {menu.value && (
+        <PointMenu
+          point={menu.value}
+          target={targetAt(menu.value)}
+          at={spot.value}
+          onGo={(order, replace) => void go(order, replace)}
+        />
+      )}
     </section>
   );
 }
@@ -109,6 +146,23 @@ function follow(view: MapView): (() => void)[] {
     effect(() => drawing.greyScan(!scanFresh.value)),
     effect(() => seen(() => drawing.showRobot(poseNow.value))),
     effect(() => drawing.doubtRobot(poseDoubtful.value)),
+    effect(() => drawing.points.showMarks(marksShown.value)),
+    effect(() => drawing.points.showDrawn(drawn.value)),
+    effect(() => drawing.points.showRow(row.value)),
+    effect(() => seen(() => drawing.points.showTrail(isShown("trail") ? trail.value : []))),
+    effect(() => {
+      const from = facing.value;
+      const to = hovered.value;
+      drawing.points.showAim(
+        from ?? menu.value ?? crosshair.value,
+        from && to ? headingTo(from, to) : null,
+      );
+    }),
+    effect(() => view.holdStill(facing.value !== null)),
+    effect(() => {
+      const pose = poseNow.value;
+      if (follows.value && pose) view.reveal({ x: pose.x_m, y: pose.y_m });
+    }),
     effect(() => drawing.greyRobot(!poseFresh.value)),
   ];
 }
@@ -138,8 +192,50 @@ function poseAge(): number | null {
   return bridge === null || localization === null ? null : Math.max(bridge, localization);
 }
 
+const hovered = signal<Point | null>(null);
+const shownView = signal<MapView | null>(null);
+
+/** Move the crosshair by the arrow keys; Enter does there what a click would. */
+function pressed(event: KeyboardEvent): void {
+  const view = shownView.value;
+  if (!view || event.target !== event.currentTarget) return;
+  const pose = poseNow.value;
+  const from = crosshair.value ?? (pose ? { x: pose.x_m, y: pose.y_m } : view.centre());
+  if (event.key === "Enter") {
+    event.preventDefault();
+    if (facing.value && crosshair.value) faceTo(crosshair.value);
+    else clicked(from, view);
+    return;
+  }
+  const to = stepped(from, event.key, event.shiftKey);
+  if (!to) return;
+  event.preventDefault();
+  crosshair.value = hovered.value = to;
+  view.reveal(to);
+}
+
+/** Take the heading where the mouse or finger lets go. */
+function turnedTo(event: PointerEvent): void {
+  const view = shownView.value;
+  if (facing.value && view) faceTo(view.pointAt(event));
+}
+
+function faceTo(point: Point): void {
+  const from = facing.value;
+  const yaw = from && headingTo(from, point);
+  if (!from || yaw === null) return;
+  const goal = { x_m: from.x, y_m: from.y, yaw_rad: yaw };
+  if (row.value.length > 0) addToRow(goal);
+  else void goTo([goal], isBusy.value);
+}
+
 function clicked(point: Point, view: MapView): void {
-  choice.value = null;
+  menu.value = null;
+  if (facing.value) return; // where the pointer let go counts
+  if (drawn.value) {
+    addCorner(point);
+    return;
+  }
   const asked = pointAsked.value;
   if (asked !== null) {
     pointAsked.value = null;
@@ -151,14 +247,8 @@ function clicked(point: Point, view: MapView): void {
     picking.value = false;
     return;
   }
-  const target = targetAt(point);
-  if (target === null) {
-    tell(t("map.nothing"));
-  } else if (isBusy.value) {
-    choice.value = { ...target, ...view.pixel(point) };
-  } else {
-    void go(target.order, false);
-  }
+  spot.value = view.pixel(point);
+  menu.value = point;
 }
 
 function targetAt(point: Point): Target | null {
@@ -171,35 +261,8 @@ function targetAt(point: Point): Target | null {
 }
 
 async function go(text: string, replace: boolean): Promise<void> {
-  choice.value = null;
+  menu.value = null;
   if (await give(text, replace)) tell(t("goal.sent", { text }));
-}
-
-function Ask({ choice: { name, order, left, top } }: { choice: Choice }) {
-  const box = useRef<HTMLFieldSetElement>(null);
-  useEffect(() => {
-    const element = box.current;
-    const within = element?.parentElement;
-    if (!element || !within) return;
-    const most = within.clientWidth - element.offsetWidth - 8;
-    element.style.left = `${Math.max(8, Math.min(left, most))}px`;
-    element.style.top = `${Math.max(8, Math.min(top, within.clientHeight - element.offsetHeight - 8))}px`;
-    element.querySelector("button")?.focus();
-  }, [left, top]);
-  return (
-    <fieldset ref={box} class="map-choice" aria-label={name}>
-      <strong class="clip">{t("map.busy", { name })}</strong>
-      <button type="button" class="main" onClick={() => void go(order, true)}>
-        {t("goal.replace")}
-      </button>
-      <button type="button" onClick={() => void go(order, false)}>
-        {t("goal.queue")}
-      </button>
-      <button type="button" class="quiet" onClick={() => (choice.value = null)}>
-        {t("op.no")}
-      </button>
-    </fieldset>
-  );
 }
 
 /** Switch layers of the map on and off. */
@@ -219,6 +282,25 @@ function LayerSwitches() {
           {t(`map.layer_${name}`)}
         </label>
       ))}
+      {(["fence", "out", "slow"] as const).map((name) => (
+        <span key={name} class="legend">
+          <span class={`layer-swatch swatch-of-${name}`} aria-hidden="true" />
+          {t(`legend.${name}`)}
+        </span>
+      ))}
+      <MarkList />
+      <span class="map-buttons">
+        <button type="button" onClick={() => shownView.value?.showAll()}>
+          {t("map.fit")}
+        </button>
+        <button
+          type="button"
+          aria-pressed={follows.value}
+          onClick={() => (follows.value = !follows.value)}
+        >
+          {t("map.follow")}
+        </button>
+      </span>
     </details>
   );
 }
@@ -239,6 +321,20 @@ function aged(
   ageS: number | null,
 ) {
   return ageS === null ? t(never) : t(old, { age: seconds(ageS) });
+}
+
+/** Say how far it is still, and how long that takes at the speed of late. */
+function ToGo() {
+  const left = pageFresh.value ? toGo.value : null;
+  if (left === null) return null;
+  const far = t("step.to_go", { left: fixed(left.left, 1, "m") });
+  const long = left.seconds === null ? "" : ` · ${t("map.about", { time: seconds(left.seconds) })}`;
+  return (
+    <p class="map-ages" id="to-go">
+      {far}
+      {long}
+    </p>
+  );
 }
 
 /** Say why the way bends, or goes on towards something; the spot is marked on the map. */

@@ -4,6 +4,7 @@
  * paints nothing else for it.
  */
 import type { Candidate, Grid, Layers, Mover, Path, Pose, ProposedRoom, Scan } from "../wire/types";
+import { PointDrawing } from "./pointDrawing";
 import { type Point, unwound } from "./resolve";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -82,6 +83,7 @@ function layer(name: string, ...content: readonly SVGElement[]): SVGSVGElement {
 }
 
 export class Drawing {
+  readonly points = new PointDrawing();
   private readonly fence = make("path", { class: "fence" });
   private readonly zones = make("path", { class: "zone" });
   private readonly scan = make("path", { class: "scan" });
@@ -106,6 +108,7 @@ export class Drawing {
       this.zones,
       this.rooms,
       this.fence,
+      ...this.points.elements,
       this.path,
       this.goal,
       this.doubt,

@@ -1,7 +1,7 @@
 /** Choose which layers of the map are drawn; the choice is kept on this browser. */
 import { signal } from "@preact/signals";
 
-export const LAYERS = ["scan", "obstacles", "movers", "rooms"] as const;
+export const LAYERS = ["scan", "obstacles", "movers", "rooms", "trail"] as const;
 export type LayerName = (typeof LAYERS)[number];
 
 const SLOT = "pons.layers";

@@ -32,6 +32,7 @@ export class MapView {
   constructor(
     private readonly place: HTMLElement,
     onClick: (point: Point) => void,
+    onHover: (point: Point) => void,
   ) {
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.map = L.map(place, {
@@ -47,6 +48,7 @@ export class MapView {
       fadeAnimation: false,
       inertia: !still,
       doubleClickZoom: false,
+      keyboard: false, // the arrow keys move the crosshair
     });
     this.names.addTo(this.map);
     this.roomNumbers.addTo(this.map);
@@ -54,6 +56,9 @@ export class MapView {
     this.things.layer.addTo(this.map);
     this.map.on("click", (event: L.LeafletMouseEvent) =>
       onClick({ x: event.latlng.lng, y: event.latlng.lat }),
+    );
+    this.map.on("mousemove", (event: L.LeafletMouseEvent) =>
+      onHover({ x: event.latlng.lng, y: event.latlng.lat }),
     );
     this.map.on("zoomend", () => this.markSmall());
     new ResizeObserver(() => this.fit()).observe(place);
@@ -138,6 +143,33 @@ export class MapView {
   /** Show that the next click gives a point and no goal. */
   showPicking(on: boolean): void {
     this.place.classList.toggle("picking", on);
+  }
+
+  /** Let a finger or the mouse drag what is aimed at, and not the map. */
+  holdStill(still: boolean): void {
+    if (still) this.map.dragging.disable();
+    else this.map.dragging.enable();
+  }
+
+  /** Return the point of the map under a pixel of the window. */
+  pointAt(event: MouseEvent): Point {
+    const { lat, lng } = this.map.mouseEventToLatLng(event);
+    return { x: lng, y: lat };
+  }
+
+  /** Show the whole map. */
+  showAll(): void {
+    this.fit();
+  }
+
+  /** Bring a point into view, where it is not well inside. */
+  reveal({ x, y }: Point): void {
+    this.map.panInside([y, x], { padding: [40, 40], animate: false });
+  }
+
+  centre(): Point {
+    const { lat, lng } = this.map.getCenter();
+    return { x: lng, y: lat };
   }
 
   /** Return where a point of the map is in the view [px]. */

@@ -74,6 +74,20 @@ export function prove(kind: Act | "trial", status: Status | null): OperatorProof
   };
 }
 
+/** Return the proof that an operator means this very text, or null where none is needed; throws as `prove`. */
+export function proveText(
+  kind: "marks",
+  text: string,
+  status: Status | null,
+): OperatorProof | null {
+  if (!needsKey(status) || status === null) return null;
+  if (!mayAskKey()) throw new ApiError("operator_key_insecure", "");
+  if (key === null) throw new ApiError("operator_key_needed", "");
+  const [id, digest] = [newId("page"), bytesToHex(sha256(utf8ToBytes(text)))];
+  const { nonce, robot } = status;
+  return { id, proof: { nonce, mac: mac(key, kind, robot, nonce, id, digest) } };
+}
+
 /** Return the proof that a goal carries: it clears a hold, so without one standing none is needed. */
 export function proveGoal(status: Status | null): OperatorProof | null {
   return status?.held && needsKey(status) ? prove("resume", status) : null;

@@ -15,7 +15,7 @@ import {
 import { goals } from "../state/store";
 import type { Mission, MissionRow } from "../wire/missions";
 import { clock, fixed, seconds } from "./format";
-import { Steps } from "./GoalCard";
+import { Steps } from "./Turn";
 import { MissionTrack } from "./MissionTrack";
 
 const SEARCH_MS = 250;
@@ -149,7 +149,7 @@ function One({ mission }: { mission: Mission }) {
         <span class="fine">{t("missions.by", { who: story.source })}</span>
       </p>
       {goal.outcome && <p dir="auto">{say(goal.outcome.message)}</p>}
-      {goal.plan && <Steps steps={goal.plan.steps} />}
+      {goal.plan && <Steps steps={goal.plan.steps} goal={goal.id} />}
       {story.replies.map((reply, at) => (
         <p key={at} class="fine" dir="auto">
           {story.questions[at]} → {reply}

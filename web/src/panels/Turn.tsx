@@ -117,7 +117,7 @@ function Deeds({ goal }: { goal: Goal }) {
 }
 
 /** Show a plan's steps, with what its patrols saw. */
-function Steps({ steps, goal }: { steps: readonly Step[]; goal: string }) {
+export function Steps({ steps, goal }: { steps: readonly Step[]; goal: string }) {
   return (
     <ol class="steps" aria-label={t("goal.steps")}>
       {steps.map((step, index) => (

@@ -10,8 +10,9 @@ export function nameOf(id: string | null): string {
 }
 
 export function stepWords(step: Step): string {
-  const template = word(`step`, step.kind);
-  return template === step.kind ? step.kind : template.replace("{what}", what(step)).trim();
+  const kind = step.kind === "go_to_pose" && step.look ? "look_at_point" : step.kind;
+  const template = word(`step`, kind);
+  return template === kind ? step.kind : template.replace("{what}", what(step)).trim();
 }
 
 /** Say what a step is to the one that holds it, and what a condition came to. */
@@ -29,6 +30,7 @@ function what(step: Step): string {
   }
   if (step.kind === "wait_for") return step.object ?? step.word ?? step.time ?? "";
   if (step.kind === "stand_at") return standing(step);
+  if (typeof step.x_m === "number") return `(${fixed(step.x_m, 2)}, ${fixed(step.y_m ?? 0, 2)})`;
   if (step.kind === "clock") return `${step.after ?? ""} – ${step.before ?? ""}`;
   if (step.kind === "follow" && step.object) return step.object;
   if (typeof step.seconds === "number") return fixed(step.seconds, 0, "s");

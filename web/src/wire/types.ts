@@ -46,6 +46,7 @@ export type Status = {
   readonly mode: string;
   readonly epoch: string;
   readonly nonce: string;
+  readonly marks_hash?: string | null; // of what people drew on the map, as the bridge holds it
   readonly owner: { readonly planner_id: string; readonly kind: string } | null;
   readonly held: { readonly reason: string; readonly id: string } | null;
   readonly base_in_map: Pose | null;
@@ -174,6 +175,9 @@ export type Step = {
   readonly times: number | null; // rounds of a repeat, at most
   readonly round: number; // which of them runs, or was the last
   readonly holds: boolean | null; // of a condition: what it came to
+  readonly look?: boolean; // a point is faced from near by
+  readonly x_m?: number | null; // a point of the map that a person gave [m]
+  readonly y_m?: number | null;
   readonly side?: string | null; // of a place or thing, at which to stand
   readonly word: string | null;
   readonly time: string | null;

@@ -330,9 +330,13 @@ def risen(trouble: Do) -> set[str]:
 
 
 @pytest.mark.parametrize(("metres", "expected"), [(0.02, True), (-0.02, False)])
-def test_a_zone_begins_at_its_outline(metres: float, expected: bool) -> None:
+def test_a_zone_begins_where_the_robot_must_slow_down_for_it(metres: float, expected: bool) -> None:
     world = reached("active")
-    edge_m = world.here.x_m + world.sent.v_mps * PERIOD_S - metres
+    limits, late_s = world.core.robot.limits, world.core.robot.drive.late_s
+    reaction_s = 0.1 + late_s + limits.max_decel_mps2 / (2 * limits.stop_jerk_mps3)
+    fast = limits.max_speed_mps
+    slowing_m = fast * reaction_s + (fast * fast - 0.2 * 0.2) / (2 * limits.max_decel_mps2)
+    edge_m = world.here.x_m + world.sent.v_mps * PERIOD_S + slowing_m - metres
     zone = Zone(((edge_m, -1.0), (edge_m + 2.0, -1.0), (edge_m + 2.0, 1.0), (edge_m, 1.0)), 0.2)
     world.core = replace(world.core, fence=build_fence(MAP_ID, (SQUARE,), zones=(zone,)))
     world.tick()

@@ -87,7 +87,7 @@ def test_no_number_raises_and_none_is_let_in(x: float, y: float) -> None:
     assert not allowed or (0 <= x <= 6 and 0 <= y <= 4)
     assert allowed or ROOM.margin_m(x, y) <= 0
     assert ROOM.crosses(x, y, y, x) in (True, False)
-    assert ROOM.max_speed_mps(x, y) is None
+    assert ROOM.zones_near(x, y) == []
 
 
 def _text(**change: object) -> bytes:
@@ -107,7 +107,7 @@ def test_a_file_becomes_a_fence_and_its_hash(tmp_path: Path) -> None:
     path.write_bytes(_text(speed_zones=[zone]))
     fence, digest = load_fence(path)
     assert fence.map_id == MAP
-    assert fence.max_speed_mps(0.8, 0.1) == 0.2
+    assert fence.zones_near(0.8, 0.1) == [(0.0, 0.2)]
     assert digest == fingerprint(path.read_bytes())
 
 
@@ -198,3 +198,28 @@ def test_a_square_on_the_boundary_answers_point_by_point() -> None:
     for x, inside, edges in ((0.18, True, 1), (-0.18, False, 1), (1.17, True, 1), (1.18, True, 0)):
         cell = fences._cell_at(x, 0.0, 0.25, (line(0, -9, 0, 9),), (oblong(0, -9, 9, 9),), ())
         assert (cell.inside, len(cell.edges)) == (inside, edges)
+
+
+def test_marks_take_away_from_a_fence_and_are_prepared_once() -> None:
+    square = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
+    fence = build_fence("m", (square,))
+
+    def text(x: float) -> str:
+        corners = f"[[{x},1],[{x + 1},1],[{x + 1},2],[{x},2]]"
+        zone = f'{{"polygon":{corners},"max_speed_mps":0.2}}'
+        head = '"version":1,"map_id":"0123456789abcdef"'
+        return f'{{{head},"keep_outs":[{corners}],"speed_zones":[{zone}]}}'
+
+    marked = fence.with_marks(text(1.0))
+    assert fence.allows(1.5, 1.5)
+    assert not marked.allows(1.5, 1.5)
+    assert marked.margin_m(0.5, 1.5) == pytest.approx(0.5)
+    ((gap_m, speed_mps),) = marked.zones_near(0.5, 1.5)
+    assert (gap_m, speed_mps) == pytest.approx((0.5, 0.2))
+    assert marked.zones_near(1.5, 1.5) == [(0.0, 0.2)]
+    assert marked.zones_near(3.9, 3.9) == []
+    assert fence.with_marks(text(1.0)) is marked
+    for step in range(20):
+        fence.with_marks(text(1.0 + 0.01 * step))
+    assert len(fence.marked) <= 8
+    assert fence.with_marks(text(1.0)) == marked

@@ -59,6 +59,7 @@ WRITERS = {
     "leg": "authority.leg_tracking",
     "lidar": "sensing.sensor_update",
     "loop": "sensing.sensor_update",
+    "marks": "authority.marks",
     "mode": "modes.transition",
     "mode_since_s": "modes.transition",
     "motion": "motion.wheel_command",

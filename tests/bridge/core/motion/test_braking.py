@@ -6,7 +6,7 @@ from math import nan, sqrt
 
 import pytest
 
-from bridge.core.motion.braking import speed_scale, speed_within, stop_length_m
+from bridge.core.motion.braking import speed_before, speed_scale, speed_within, stop_length_m
 from bridge.core.motion.free_distance import FreeLength
 from tests.bridge.core.table import table
 from wire import STILL, RobotDescription, Twist2
@@ -104,3 +104,20 @@ def test_what_a_free_length_lets_pass(way: FreeLength, twist: Twist2, scale: flo
 )
 def test_the_path_until_standstill(twist: Twist2, share: float, length_m: float) -> None:
     assert stop_length_m(twist, BASE, LIMITS, 0.3, share) == pytest.approx(length_m)
+
+
+@pytest.mark.parametrize("gap_m", [0.01, 0.1, 0.5])
+@pytest.mark.parametrize(("decel", "late_s"), [(1.0, 0.0), (0.5, 0.2)])
+def test_a_speed_before_a_slow_area_is_down_to_its_speed_at_the_edge(
+    gap_m: float, decel: float, late_s: float
+) -> None:
+    slow = 0.2
+    speed = speed_before(gap_m, slow, decel, late_s)
+    assert speed >= slow
+    needed_m = speed * late_s + (speed * speed - slow * slow) / (2 * decel)
+    assert speed == slow or needed_m == pytest.approx(gap_m)
+
+
+@pytest.mark.parametrize("gap_m", [0.0, -1.0, float("nan")])
+def test_inside_a_slow_area_its_speed_is_the_bound(gap_m: float) -> None:
+    assert speed_before(gap_m, 0.2, 1.0, 0.1) == 0.2

@@ -1,0 +1,144 @@
+"""Take goals that a person points at on the map, and judge each point before anything moves.
+
+The points are the goal's whole plan: no brain is asked, and no sentence is read. A point that can't
+be stood on, or can't be reached, refuses the goal with its reason.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from maps.grid import FREE, UNKNOWN
+from planner.language.catalogue import message
+from planner.language.plan_words import tell_steps
+from planner.mission.events import Planned, Submitted
+from planner.mission.reception import receive_points
+from planner.mission.skills.drive_to_place import SEES_FROM_M
+from planner.plan import Code, Language, Outcome, StepPlan, say_same
+from planner.site import PlaceRefusal
+from planner.site.polygon import contains
+from wire import Pose2
+
+if TYPE_CHECKING:
+    from planner.mission.clocks import Clocks
+    from planner.mission.effects import AskBrain
+    from planner.mission.loop import Loop
+    from planner.mission.place_survey import RobotSurvey
+    from planner.mission.request_keys import Repeats
+    from planner.mission.tasks import Think
+    from planner.plan import GoToPose
+    from planner.site import KnownPlaces, Site
+    from wire import OpRequest
+
+_BY_THE_WAY = {
+    "place_outside_map": Code.POINT_OUTSIDE_MAP,
+    "place_in_obstacle": Code.POINT_IN_OBSTACLE,
+    "place_unreachable": Code.POINT_UNREACHABLE,
+}
+"""What a search for the way says of a point; anything else says that none was made."""
+
+
+class PointGoals:
+    """Give goals by points of the map, and plan them."""
+
+    def __init__(
+        self,
+        loop: Loop,
+        places: KnownPlaces,
+        survey: RobotSurvey,
+        repeats: Repeats,
+        clocks: Clocks,
+        otherwise: Think,
+    ) -> None:
+        """Take where goals go, what knows the map, and how all other goals are understood."""
+        self._loop, self._places, self._survey = loop, places, survey
+        self._repeats, self._clocks, self._otherwise = repeats, clocks, otherwise
+
+    async def give(
+        self,
+        points: tuple[GoToPose, ...],
+        *,
+        language: Language = Language.EN,
+        confirm: bool = False,
+        replace: bool = False,
+        idempotency_key: str | None = None,
+        act: OpRequest | None = None,
+        by: str = "api",
+    ) -> str:
+        """Take the goal in and return its id, or that of the goal which this request made before.
+
+        Raises:
+            QueueFull, IdempotencyConflict, ReservedKey, JournalDown: as of a sentence.
+        """
+        goal_id, text = self._clocks.new_id(), tell_steps(points, say_same).of(language)
+        given = Submitted(goal_id, text, language, confirm, replace, points=points, by=by)
+        heard = receive_points(self._loop.book, given, idempotency_key, self._repeats)
+        if heard.refused is not None:
+            raise heard.refused
+        if heard.repeats is not None:
+            return heard.repeats
+        self._repeats.remember(heard.request)
+        self._loop.keep_act(goal_id, act)
+        self._loop.accepted.note(goal_id, self._clocks.monotonic())
+        self._loop.event(given, heard.request)
+        await self._repeats.ensure_written(self._loop, goal_id, heard.request)
+        return goal_id
+
+    async def think(self, ask: AskBrain) -> Planned:
+        """Plan a goal that was given by points; have any other understood."""
+        mission = self._loop.book.missions.get(ask.id)
+        if mission is None or not mission.points or mission.steps or mission.replies:
+            return await self._otherwise(ask)
+        refused = await self._find_refusal(mission.points)
+        plan = StepPlan(steps=mission.points) if refused is None else None
+        return Planned(ask.id, plan, refused)
+
+    async def _find_refusal(self, points: tuple[GoToPose, ...]) -> Outcome | None:
+        """Return why the first point that is not to be reached is not; None: all are."""
+        site = self._places.site
+        for point in points:
+            if (code := judge_spot(site, point)) is not None:
+                return _tell(code, point)
+        at = points[0]
+        try:
+            here = self._survey.robot_pose(site.map_id, must_stand=False)
+            for at in points:
+                goal = Pose2(at.x_m, at.y_m, at.yaw_rad or 0.0)
+                sees_from_m = SEES_FROM_M if at.look else 0.0
+                await self._survey.check_way(here, goal, sees_from_m=sees_from_m)
+                here = here if at.look else goal
+        except PlaceRefusal as refused:
+            code = _BY_THE_WAY.get(refused.code, Code.POINT_UNCHECKED)
+            if at.look and code is Code.POINT_IN_OBSTACLE:
+                code = Code.POINT_UNREACHABLE  # a wall may be looked at; nothing sees this one
+            return _tell(code, at, refused)
+        return None
+
+
+def judge_spot(site: Site, point: GoToPose) -> Code | None:
+    """Return why the robot can't stand at a point by map and fence; None: nothing is against it.
+
+    Of a point that is only looked at, the map alone is asked.
+    """
+    x_m, y_m = point.x_m, point.y_m
+    if point.map_id != site.map_id:
+        return Code.POINT_OF_OTHER_MAP
+    if not site.grid.contains(x_m, y_m):
+        return Code.POINT_OUTSIDE_MAP
+    if point.look:
+        return None
+    cell = site.grid.at(x_m, y_m)
+    if cell == UNKNOWN:
+        return Code.POINT_UNMAPPED
+    if cell != FREE:
+        return Code.POINT_IN_OBSTACLE
+    if any(contains(outline, x_m, y_m) for outline in site.fence.record.keep_outs):
+        return Code.POINT_IN_KEEP_OUT
+    return None if site.fence.allows(x_m, y_m) else Code.POINT_OUTSIDE_FENCE
+
+
+def _tell(code: Code, point: GoToPose, refused: PlaceRefusal | None = None) -> Outcome:
+    facts = {"why": refused.why} if code is Code.POINT_UNCHECKED and refused is not None else {}
+    named = "" if code is Code.POINT_OF_OTHER_MAP else f"({point.x_m:.2f}, {point.y_m:.2f})"
+    point_named = {"point": named} if named else {}
+    return Outcome(code=code, message=message(code, **point_named, **facts))
