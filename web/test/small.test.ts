@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { FIRST_MS, LONGEST_MS, waitMs } from "../src/net/backoff";
-import { fixed, seconds } from "../src/panels/format";
-import { busy, sorted, withProgress } from "../src/state/goals";
+import { fixed, seconds, when } from "../src/panels/format";
+import { busy, onlyPartly, sorted, withProgress } from "../src/state/goals";
 import { whole } from "../src/panels/Draft";
 import { goal } from "./examples";
 
@@ -34,7 +34,38 @@ describe("numbers", () => {
   });
 });
 
+describe("when something was", () => {
+  const at = (day: number, hour: number) => new Date(2026, 10, day, hour, 5).getTime();
+
+  it("is a time of day, with its date where that is not today's", () => {
+    expect(when(at(29, 21), at(29, 23))).toBe("21:05");
+    expect(when(at(28, 21), at(29, 1))).toBe("Nov 28 21:05");
+  });
+});
+
 describe("goals", () => {
+  it("that left a part undone are not done", () => {
+    const words = { en: "", zh: "" };
+    const at = { asked: null, reached: null, metres: null, seconds: null, limited_by: [] };
+    const outcome = { code: "done", message: words, ...at };
+    const plan = (more: object) => ({
+      kind: "plan",
+      steps: [{ ...whole({ kind: "explore", state: "succeeded" }), ...more }],
+      code: null,
+      text: null,
+      options: [],
+    });
+    const told = (more: object) => onlyPartly(goal("a", "succeeded", { outcome, ...more }));
+    expect(told({})).toBe(false);
+    expect(told({ plan: plan({ code: "explored" }) })).toBe(false);
+    expect(told({ outcome: { ...outcome, code: "partly_explored" } })).toBe(true);
+    expect(told({ plan: plan({ code: "partly_explored" }) })).toBe(true);
+    expect(told({ plan: plan({ stops: [{ place: "p", said: words, shut: true }] }) })).toBe(true);
+    expect(onlyPartly(goal("a", "failed", { plan: plan({ code: "partly_explored" }) }))).toBe(
+      false,
+    );
+  });
+
   it("are sorted into what runs, waits and was", () => {
     const found = sorted([
       goal("z", "succeeded"),
