@@ -65,6 +65,14 @@ describe("why the robot does not drive", () => {
     expect(reasons(shut, log).join()).toMatch(CHINESE);
   });
 
+  it("is not the hand that drives it now, and is so once that has let go", () => {
+    const held = { reason: "teleop" as const, id: "page-1" };
+    expect(reasons({ ...status, mode: "TELEOP", held }, [])).toEqual([]);
+    expect(reasons({ ...status, mode: "HOLD", held }, [])).toEqual([
+      "Held: it was steered by hand.",
+    ]);
+  });
+
   it("is only that the way is blocked where nobody here heard what shuts it", () => {
     const shut = { ...status, blocked: true };
     expect(reasons(shut, [])).toEqual(["The way is blocked."]);

@@ -196,6 +196,7 @@ class FakeRobot:
         self.takes_hints = True
         self.localized_map: str | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
+        self.names: dict[str, str] = {}
         self.driver: dict[str, str] | None = None
         self.points: list[tuple[float, float]] = []
         self.trial: TrialState | None = None
@@ -244,6 +245,7 @@ class FakeRobot:
         self, source: str, v_mps: float, w_radps: float, *, dead_man: bool, name: str = ""
     ) -> None:
         self.steers.append((source, v_mps, w_radps, dead_man))
+        self.names[source] = name
 
 
 class FakeEars:

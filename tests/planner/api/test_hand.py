@@ -126,6 +126,7 @@ def test_fractions_become_speeds_below_the_robots_limits(server: Served) -> None
         heard = say(socket, 2, forward=0.5, left=-1.0, held=True)
         source, v_mps, w_radps, dead_man = told(server, 2)[1]
     assert source == heard["id"]
+    assert server.services.robot.names[source] == "Ana"
     assert (v_mps, w_radps) == (0.5 * limits.max_speed_mps, -limits.max_turn_radps)
     assert dead_man is True
 

@@ -32,6 +32,12 @@ export function HandPanel() {
   );
 }
 
+/** The stick as it is shown: its clock ticks twenty times a second, and nobody sees that. */
+const stickNow = steady(() => {
+  const { open, held, driving, why, forward, left } = hand.value;
+  return { open, held, driving, why, forward, left };
+});
+
 /** The name of another hand that drives, as far as that is known now. */
 const driverNow = steady(() => {
   const driver = pageFresh.value && bridgeFresh.value ? (shown.value?.driver ?? null) : null;
@@ -45,7 +51,7 @@ function Stick() {
   useEffect(openStick, []);
   return (
     <>
-      <p class={`hand-state ${hand.value.driving ? "good" : ""}`} id="hand-state" role="status">
+      <p class={`hand-state ${stickNow.value.driving ? "good" : ""}`} id="hand-state" role="status">
         {words()}
       </p>
       <Knob />
@@ -62,7 +68,7 @@ function Stick() {
           autocomplete="nickname"
           maxLength={40}
           value={ownName.value}
-          onChange={(event) => callMyself(event.currentTarget.value.trim())}
+          onInput={(event) => callMyself(event.currentTarget.value)}
         />
       </label>
     </>
@@ -71,7 +77,7 @@ function Stick() {
 
 /** Say who drives; else why not. */
 function words(): string {
-  const { open, held, driving, why } = hand.value;
+  const { open, held, driving, why } = stickNow.value;
   if (driving) return t("hand.you");
   const other = driverNow.value;
   if (other !== null && held === null) return othersWords(other);
@@ -89,7 +95,7 @@ const standing = steady(() => {
 });
 
 function Stands() {
-  if (hand.value.driving || standing.value === null) return null;
+  if (stickNow.value.driving || standing.value === null) return null;
   return (
     <p class="reason" id="hand-stands">
       {t("hand.stands", { why: standing.value })}
@@ -161,7 +167,7 @@ function Knob() {
     end();
   };
   const release = (): void => take({ type: "release", source: "pointer" });
-  const { forward, left, held, driving } = hand.value;
+  const { forward, left, held, driving } = stickNow.value;
   return (
     <div
       id="stick"

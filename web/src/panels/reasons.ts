@@ -35,6 +35,7 @@ function shut(log: readonly LogEntry[]): string {
 
 function heldBy(said: Status): string[] {
   if (said.held === null) return [];
+  if (said.mode === "TELEOP" && said.held.reason === "teleop") return []; // it is, and drives
   const why = said.held.reason === "fault" ? causeWords(said.held.id) : null;
   return [word("held", said.held.reason), ...(why ? [why] : [])];
 }
