@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import select
 import sys
 from dataclasses import replace
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-from pons.grammar import EVAL, MAP, MOCK_LLM, NAV2, OPERATOR, ROBOT, SITE, parser
 from pons.settings import (
     BadSetting,
     LaunchSettings,
@@ -20,6 +19,9 @@ from pons.settings import (
     site_of,
 )
 from pons_assets import IS_INSTALLED, needs_checkout
+
+if TYPE_CHECKING:
+    import argparse
 
 EXIT_USAGE = 2
 _FOLLOW = frozenset({
@@ -83,6 +85,16 @@ def _run_command(words: list[str]) -> int:
 
         print(version_line())
         return 0
+    from pons.grammar import (  # after an order to stop
+        EVAL,
+        MAP,
+        MOCK_LLM,
+        NAV2,
+        ROBOT,
+        SITE,
+        parser,
+    )
+
     settings = load(starts=words[:1] == ["up"])
     if words and words[0] in _FOLLOW and not is_robot_named():
         from pons.running import of_this_user
@@ -141,6 +153,8 @@ def _dispatch(settings: LaunchSettings, said: argparse.Namespace, words: list[st
         settings = of_running(settings)
     if said.word in _TOOLS:
         return _tool(settings, said)
+    from pons.grammar import OPERATOR
+
     if said.word in OPERATOR or said.word == "status":
         from pons import operator
 

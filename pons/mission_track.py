@@ -67,12 +67,12 @@ def _messages(folder: Path, since_unix_s: float, until_unix_s: float) -> Iterato
 
 def _of_file(box: McapReader, since_ns: float, until_ns: float) -> Iterator[Raw]:
     for chunk in box.chunks:
-        messages = box.read(chunk)
-        if messages and messages[0].at_ns > until_ns:
-            return
+        begin_ns, end_ns = box.span_ns(chunk)
+        if end_ns < since_ns or begin_ns > until_ns:
+            continue
         yield from (
             raw
-            for raw in messages
+            for raw in box.read(chunk)
             if raw.topic in (_STATUS, _EVENT) and since_ns <= raw.at_ns <= until_ns
         )
 

@@ -114,6 +114,12 @@ class McapReader:
             if schema in self._schemas
         ]
 
+    def span_ns(self, chunk: Chunk) -> tuple[int, int]:
+        """Return when a chunk's first and last message were logged, without unpacking it."""
+        self._file.seek(chunk.at)
+        begin_ns, end_ns, _, _ = _CHUNK_HEAD.unpack(self._file.read(_CHUNK_HEAD.size))
+        return begin_ns, end_ns
+
     def read(self, chunk: Chunk) -> list[Raw]:
         """Return one chunk's messages; none where the file was cut short in it.
 

@@ -237,7 +237,7 @@ export const en = {
   "rooms.size": "{m2} m²",
   "rooms.name": "Name it",
   "rooms.keep": "Keep this name",
-  "tab.missions": "Missions",
+  "tab.missions": "Past",
   "missions.title": "What it was told",
   "missions.day": "Day",
   "missions.state": "Result",

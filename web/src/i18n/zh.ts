@@ -229,7 +229,7 @@ export const zh: Record<Key, string> = {
   "rooms.size": "{m2} 平方米",
   "rooms.name": "起名",
   "rooms.keep": "保存名称",
-  "tab.missions": "任务",
+  "tab.missions": "记录",
   "missions.title": "任务记录",
   "missions.day": "日期",
   "missions.state": "结果",
