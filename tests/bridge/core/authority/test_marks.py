@@ -9,9 +9,9 @@ import pytest
 from bridge.core import initial
 from bridge.core.geometry.fence import build_fence
 from bridge.core.inbox import FenceArrival, FenceDone
+from tests.bridge.core.fake_planner import MAP_ID
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
-from tests.bridge.core.fake_planner import MAP_ID
 from wire import MarksFile
 from wire.fence import fence_text
 from wire.fingerprint import fingerprint
