@@ -57,6 +57,7 @@ class Diary:
         *,
         imu: Imu | None,
         fence_done: None,
+        marks_done: None,
         real_time: bool,
         is_repeat: Callable[[str, str], bool],
         recorder_says: str,
