@@ -136,7 +136,7 @@ class BridgeLink:
             estop_link=took.take_newest(ESTOP_LINK, self._estop_link),
             fences=self._fences(took),
             fence_done=fence_done,
-            marks=self._drawn(took),
+            marks=self._marks_of(took),
             marks_done=marks_done,
             rejected=tuple(took.rejected),
             arrived=tuple(took.arrived),
@@ -181,7 +181,7 @@ class BridgeLink:
             arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
         return tuple(arrived)
 
-    def _drawn(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
+    def _marks_of(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
         """Take requests for other marks; an unproven one's text goes no further."""
         arrived = []
         for request in took.take_all(MARKS, self._marks):

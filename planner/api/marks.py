@@ -17,7 +17,7 @@ from planner.api.problems import HttpProblem
 from planner.api.schemas import Body, OperatorOrder
 from planner.language.catalogue import CATALOGUE, say
 from planner.site.fence_check import FenceRefusal
-from planner.site.marks import check_marks, marks_hash, rounded
+from planner.site.marks import check_marks, marks_hash, round_marks
 from wire import VIRTUAL_KEY, MarksFile, MarksRequest, sign_marks
 from wire.bounded_types import Fingerprint
 from wire.fence import fence_text
@@ -51,7 +51,7 @@ def routes(services: Services) -> APIRouter:
     @router.post("/check", operation_id="check_marks")
     async def check(drawing: Drawing) -> dict[str, Any]:
         """Say whether marks could come into force here and now, and give the text to be signed."""
-        text = fence_text(await _checked(services, drawing.marks))
+        text = fence_text(await _check(services, drawing.marks))
         return {"text": text}
 
     @router.put("", operation_id="put_marks")
@@ -60,7 +60,7 @@ def routes(services: Services) -> APIRouter:
         now = marks_hash(services.memory.drawn.marks)
         if order.before != now:
             raise _problem("marks_changed", f"they are {now or 'none'} by now; read them again")
-        drawn = await _checked(services, order.marks)
+        drawn = await _check(services, order.marks)
         answer = await services.robot.offer_marks(_request(services, fence_text(drawn), order))
         if answer is None:
             raise HttpProblem(503, "bridge_silent", "the bridge did not answer within 2 s")
@@ -89,13 +89,13 @@ def _view(services: Services) -> dict[str, Any]:
     }
 
 
-async def _checked(services: Services, marks: MarksFile) -> MarksFile:
+async def _check(services: Services, marks: MarksFile) -> MarksFile:
     """Return marks as they are kept.
 
     Raises:
         HttpProblem: they can't come into force.
     """
-    status, drawn = services.robot.status, rounded(marks)
+    status, drawn = services.robot.status, round_marks(marks)
     pose = status.base_in_map if status is not None else None
     try:
         await asyncio.to_thread(check_marks, drawn, services.site.fence, pose)

@@ -57,7 +57,7 @@ class GrowingRouter:
         self._site, self._limits, self._marks = site, limits, marks
         self._read_ns = self._marks_ns = 0
         self._grown, self._drawn = site.grid, site.fence
-        self._newest = self._made()
+        self._newest = self._make()
 
     @property
     def router(self) -> Router:
@@ -67,7 +67,7 @@ class GrowingRouter:
             self._newest = Router(self._site_now(), self._limits)
         return self._newest
 
-    def _made(self) -> Router:
+    def _make(self) -> Router:
         self._read_marks()
         return Router(self._site_now(), self._limits)
 

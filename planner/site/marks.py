@@ -61,7 +61,7 @@ def write_marks(path: Path, marks: MarksFile) -> None:
     beside.replace(path)
 
 
-def rounded(marks: MarksFile) -> MarksFile:
+def round_marks(marks: MarksFile) -> MarksFile:
     """Return marks with their corners to a millimetre."""
 
     def near(outline: tuple[tuple[float, float], ...]) -> tuple[tuple[float, float], ...]:

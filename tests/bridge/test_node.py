@@ -12,6 +12,7 @@ import pytest
 from bridge import node as shell_file
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, LoopFacts
 from bridge.core.state_motion import Learnt
+from bridge.core.state_orders import Marks
 from bridge.node import EXIT_BROKEN, EXIT_LEFT, BridgeNode, Parts
 from bridge.realtime import Pacer, PacerTick
 from tests.bridge.ground import FakeClock, core_config
@@ -56,6 +57,7 @@ class Diary:
         *,
         imu: Imu | None,
         fence_done: None,
+        marks_done: None,
         real_time: bool,
         is_repeat: Callable[[str, str], bool],
         recorder_says: str,
@@ -105,6 +107,16 @@ class Desk:
         return None
 
 
+class NoMarks:
+    """Stand for the desk of marks where nobody draws any."""
+
+    def note(self, marks: Marks) -> None:
+        assert marks.asked is None
+
+    def take(self) -> None:
+        return None
+
+
 @pytest.fixture
 def diary() -> Diary:
     return Diary()
@@ -112,7 +124,7 @@ def diary() -> Diary:
 
 @pytest.fixture
 def shell(diary: Diary) -> BridgeNode:
-    parts = Parts(diary, diary, diary, diary, diary, diary, Desk())  # type: ignore[arg-type]  # a Diary is all of them
+    parts = Parts(diary, diary, diary, diary, diary, diary, Desk(), NoMarks())  # type: ignore[arg-type]  # a Diary is most of them
     return BridgeNode(CONFIG, parts, 100.0, real_time=True)
 
 

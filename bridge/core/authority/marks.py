@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bridge.core.authority.requests import bad_proof, settle, use_nonce, verdict_on
-from bridge.core.motion.braking import reaction_s, stop_length_m
+from bridge.core.geometry.stopping import reaction_s, stop_length_m
 from bridge.core.state_orders import PendingMarks
 from wire.fingerprint import fingerprint
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from bridge.core.authority.message_limits import FULL_S
 from bridge.core.faults import detect_motion
-from bridge.core.motion.braking import reaction_s, speed_before
+from bridge.core.geometry.stopping import reaction_s, speed_before
 from bridge.core.sensing.sensor_update import (
     GAP_S,
     GAPS,

@@ -18,13 +18,8 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from bridge.core.geometry.kinematics import along_arc, saturate, scale_twist
-from bridge.core.motion.braking import (
-    CREEP_MPS,
-    CREEP_RADPS,
-    TURNING_MPS,
-    reaction_s,
-    stop_length_m,
-)
+from bridge.core.geometry.stopping import reaction_s, stop_length_m
+from bridge.core.motion.braking import CREEP_MPS, CREEP_RADPS, TURNING_MPS
 from bridge.core.motion.free_distance import free_length
 from bridge.core.motion.obstacle_gate import obstacle_gate
 from bridge.core.sensing.sensor_update import FREE_M, look_m

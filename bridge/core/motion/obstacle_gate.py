@@ -13,13 +13,8 @@ from typing import TYPE_CHECKING, ClassVar
 from pydantic import ConfigDict
 
 from bridge.core.geometry.kinematics import scale_twist
-from bridge.core.motion.braking import (
-    CREEP_RADPS,
-    path_decel_mps2,
-    reaction_s,
-    speed_scale,
-    speed_within,
-)
+from bridge.core.geometry.stopping import path_decel_mps2, reaction_s, speed_within
+from bridge.core.motion.braking import CREEP_RADPS, speed_scale
 from bridge.core.motion.free_distance import FreeLength, free_length
 from bridge.core.sensing.sensor_update import REACH_M, ROUNDING_M, look_m
 from bridge.core.state_motion import AS_CONFIGURED, Braking

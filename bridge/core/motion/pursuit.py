@@ -20,7 +20,7 @@ from bridge.core.geometry.path_profile import (
     regulate,
     residuals,
 )
-from bridge.core.motion.braking import speed_within
+from bridge.core.geometry.stopping import speed_within
 from bridge.core.state_motion import FollowState
 from wire.geometry import MAX_COORDINATE_M, STILL, Pose2, Twist2, wrap
 from wire.value import value

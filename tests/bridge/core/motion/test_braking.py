@@ -6,7 +6,8 @@ from math import nan, sqrt
 
 import pytest
 
-from bridge.core.motion.braking import speed_before, speed_scale, speed_within, stop_length_m
+from bridge.core.geometry.stopping import speed_before, speed_within, stop_length_m
+from bridge.core.motion.braking import speed_scale
 from bridge.core.motion.free_distance import FreeLength
 from tests.bridge.core.table import table
 from wire import STILL, RobotDescription, Twist2

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bridge.core import CoreConfig, initial
-from bridge.core.motion.braking import after_cut, after_stop, stop_length_m
+from bridge.core.geometry.stopping import stop_length_m
+from bridge.core.motion.braking import after_cut, after_stop
 from bridge.core.state_motion import LEAST_SHARE, MOST_LAG_S, UNLEARNT, Learnt, Ramp
 from tests.bridge.core.fake_planner import PERIOD_S, FakeDrive
 from tests.bridge.core.reached import reached

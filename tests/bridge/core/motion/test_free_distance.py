@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from bridge.core.geometry.kinematics import along_arc
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.motion.braking import speed_scale, speed_within
+from bridge.core.geometry.stopping import speed_within
+from bridge.core.motion.braking import speed_scale
 from bridge.core.motion.free_distance import FreeLength, free_length
 from bridge.core.sensing.sensor_update import MARGIN_M, REACH_M
 from tests.laws import at_least

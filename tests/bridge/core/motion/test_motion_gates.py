@@ -10,7 +10,7 @@ import pytest
 from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.kinematics import scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.motion.braking import reaction_s
+from bridge.core.geometry.stopping import reaction_s
 from bridge.core.motion.motion_gates import (
     _inside_fence,
     _note,

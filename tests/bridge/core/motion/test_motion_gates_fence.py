@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.kinematics import along_arc
-from bridge.core.motion.braking import stop_length_m
+from bridge.core.geometry.stopping import stop_length_m
 from bridge.core.motion.motion_gates import FENCE_MARGIN_M, INWARD_MPS, fence_scale
 from tests.bridge.core.table import table
 from tests.laws import at_least

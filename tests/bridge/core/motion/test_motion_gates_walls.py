@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from bridge.core.geometry.fence import build_fence
 from bridge.core.geometry.kinematics import along_arc, saturate, scale_twist
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.motion.braking import reaction_s
+from bridge.core.geometry.stopping import reaction_s
 from bridge.core.motion.limiter import shape, stopping_m
 from bridge.core.motion.motion_gates import FENCE_MARGIN_M, fence_scale
 from bridge.core.motion.obstacle_gate import ObstaclePass, obstacle_gate
