@@ -106,7 +106,7 @@ def show_logs(settings: LaunchSettings, names: list[str], count: int, *, follow:
     with suppress(KeyboardInterrupt):
         while follow:
             for tail in tails:
-                print("".join(tail.grown()), end="", flush=True)
+                print("".join(tail.read_new()), end="", flush=True)
             time.sleep(POLL_S)
     return EXIT_DONE
 
@@ -123,7 +123,7 @@ class _Tail:
             self._at = file.tell()
             yield from map(self._line, lines)
 
-    def grown(self) -> Iterator[str]:
+    def read_new(self) -> Iterator[str]:
         with suppress(OSError), self._path.open("rb") as file:
             if file.seek(0, os.SEEK_END) < self._at:
                 self._at = 0

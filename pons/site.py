@@ -135,11 +135,11 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
             return _print_fence_with_masks(settings, folder, said)
         return _name_room(folder, said.room, said.english, said.zh or said.english)
     except ConfigError as refused:
-        print(f"refused: {refusal(refused, _told(refused))}", file=sys.stderr)
+        print(f"refused: {refusal(refused, _sentence_of(refused))}", file=sys.stderr)
         return EXIT_REFUSED
 
 
-def _told(refused: ConfigError) -> dict[str, str]:
+def _sentence_of(refused: ConfigError) -> dict[str, str]:
     """Return a refusal's sentence in Chinese, where it has one; English stands in the error."""
     from pons.ros2_robot import TopicRefusal
 

@@ -135,7 +135,7 @@ def rewrite(path: Path, stage: Stage, incidents: Sequence[int]) -> Path | None:
     with McapReader(path) as box:
         copy = McapCopy(part, box.definitions())
         try:
-            for raw in _wanted(box, limits):
+            for raw in _read_kept(box, limits):
                 copy.add(raw)
             copy.close()
         except BaseException:
@@ -147,7 +147,7 @@ def rewrite(path: Path, stage: Stage, incidents: Sequence[int]) -> Path | None:
     return target
 
 
-def _wanted(box: McapReader, limits: Sequence[int]) -> Iterator[Raw]:
+def _read_kept(box: McapReader, limits: Sequence[int]) -> Iterator[Raw]:
     """Yield what is kept, whole ticks: a tick's messages have one time."""
     number = -1
     for raw in box.messages():
@@ -179,17 +179,17 @@ class Thinner:
         """Thin idle time out, reduce the oldest where room is short, forget what is too old."""
         for part in self._folder.glob(f"*{PART}"):
             part.unlink()
-        for path in self._finished():
+        for path in self._list_ended():
             if stage_of(path) is Stage.WHOLE:
                 self._rewrite(path, Stage.IDLE_THINNED)
-        for path in self._finished():
+        for path in self._list_ended():
             if self._total() + self._spare_bytes <= self._cap_bytes:
                 break
             if stage_of(path) is not Stage.KEPT:
                 self._rewrite(path, Stage.KEPT)
         self._forget(now_unix_s)
 
-    def _finished(self) -> list[Path]:
+    def _list_ended(self) -> list[Path]:
         """Return the files that have ended and whose next one is known, oldest first."""
         every = sorted(self._folder.glob(f"*{SUFFIX}"), key=_age)
         own = [path for path in every if f"-{self._boot}-" in path.name]
@@ -218,7 +218,7 @@ class Thinner:
         return self._incidents.get(path, [])
 
     def _forget(self, now_unix_s: float) -> None:
-        kept = [path for path in self._finished() if stage_of(path) is Stage.KEPT]
+        kept = [path for path in self._list_ended() if stage_of(path) is Stage.KEPT]
         sizes = {path: path.stat().st_size for path in kept}
         for path in kept:
             is_old = now_unix_s - path.stat().st_mtime > KEPT_DAYS * 86_400.0
