@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,6 +16,7 @@ from planner.navigation import (
     RoutePoint,
     RouteRequest,
     RouteResult,
+    RouteSurvey,
     ScanObservation,
 )
 from planner.navigation.ipc import (
@@ -106,3 +108,11 @@ def test_a_report_comes_back_as_it_was(report: ObstacleReport) -> None:
 @given(requests)
 def test_a_request_for_a_route_is_no_observation(request: RouteRequest) -> None:
     assert not is_observation(sent((asdict(request), b"")))
+
+
+@pytest.mark.parametrize(
+    "survey", [None, RouteSurvey(None, None, 0.0), RouteSurvey(0.84, (1.0, 2.0), 0.3, hoped=True)]
+)
+def test_a_survey_comes_back_as_it_was(survey: RouteSurvey | None) -> None:
+    result = RouteResult((RoutePoint(1.0, 2.0, 0.3),), 1.0, 0.0, False, 0.1, survey=survey)
+    assert read_result(sent(result_frame(result))) == result
