@@ -42,9 +42,7 @@ from planner.plan.tree import list_nodes
 BIT_RAD, BIT_M = radians(30.0), 0.2
 """Of "a bit more" of a turn and of a straight drive, as for "turn left a bit"."""
 LOOKS = frozenset({"count", "find", "look"})
-_DRIVES = frozenset(
-    {"go_to", "go_to_pose", "come_back", "return_home", "turn", "move", "wait", "stand_at"}
-)
+_DRIVES = frozenset({"go_to", "come_back", "return_home", "turn", "move", "wait", "stand_at"})
 _SPEAKS = frozenset({"say", "ask"})
 _FACES = frozenset({"go_to_object", "stand_at"})
 """After these the robot faces what it came for, so that "closer" is straight ahead."""

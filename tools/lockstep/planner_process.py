@@ -19,11 +19,9 @@ from planner.mission.journal import JournalContents
 from planner.mission.perception_requests import nothing_spent
 from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.mission.state import GoalKey
-from planner.navigation import RouteLimits
 from planner.navigation.frontier import FrontierMemory
-from planner.navigation.process_main import GrowingRouter
-from planner.navigation.router import Router
 from tools.lockstep.latencies import TICK_S
+from tools.lockstep.marked_router import note_places, routers_of
 from tools.lockstep.tick_loop import TickLoop
 from wire import (
     VIRTUAL_KEY,
@@ -48,8 +46,8 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport, RouteRequest, RouteResult, ScanObservation
     from planner.navigation.obstacle_memory import ObstacleMemory
+    from planner.navigation.router import Router
     from planner.plan import BrainTag, GoToPose, Language
-    from planner.site import KnownPlaces
     from sim import SimRobot
     from tools.lockstep.bus import Port
     from tools.lockstep.eyes import PerceptionProcess
@@ -150,31 +148,6 @@ class PacedRouter:
         return self.newest().observe(self.memory, seen)
 
 
-class MarkedRouter:
-    """Give the router of the map less what people drew on it, as the route process does."""
-
-    def __init__(self, scene: LockstepScene) -> None:
-        self._scene, self._router = scene, scene.router
-        self.places: KnownPlaces | None = None
-        """Of the planner; no closure, which a copy of the world would not take along."""
-        self._fence = scene.site.fence
-
-    def __call__(self) -> Router:
-        """Return the router of now."""
-        site = self.places.site if self.places is not None else self._scene.site
-        if site.fence.record != self._fence.record:
-            self._router, self._fence = Router(site, RouteLimits.of(self._scene.robot)), site.fence
-        return self._router
-
-
-def _routers(scene: LockstepScene) -> Callable[[], Router]:
-    """Return what gives the router of the map as it is known now."""
-    if not scene.grows:
-        return MarkedRouter(scene)
-    growing = GrowingRouter(scene.site, RouteLimits.of(scene.robot))
-    return lambda: growing.router
-
-
 @dataclass(slots=True)
 class Request:
     """Follow one request to the bridge to its verdict."""
@@ -219,7 +192,7 @@ class PlannerProcess:
             new_id=self._new_id,
         )
         self.obstacle_memory = scene.router.new_memory()
-        newest = _routers(scene)
+        newest = routers_of(scene)
         router = PacedRouter(newest, pace.route * TICK_S, self.obstacle_memory)
         self.missions = Missions(
             site=scene.site,
@@ -231,8 +204,7 @@ class PlannerProcess:
             planner_id=planner_id,
             clocks=Clocks(self._tasks.time, self._wall_s, new_goal_id),
         )
-        if isinstance(newest, MarkedRouter):
-            newest.places = self.missions.memory
+        note_places(newest, self.missions.memory)
         self.missions.show_scans(router)
         self.missions.loop.hub.join(self)
         self.run(now_s, self.missions.start(rounds=False))
@@ -322,10 +294,7 @@ class PlannerProcess:
             return None
         proof = sign_marks(VIRTUAL_KEY, status.robot, status.nonce, request_id, text)
         request = MarksRequest(id=request_id, source="api", marks=text, proof=proof)
-        try:
-            answer = await self._link.offer_marks(request)
-        except LinkError:
-            return None
+        answer = await self._link.offer_marks(request)
         if answer.accepted:
             await self.missions.memory.keep_marks(marks)
         return answer
