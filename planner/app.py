@@ -93,25 +93,22 @@ class Planner:
         self.fences = FenceProposals.in_home(where.home, self._state)
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
         self.budget.prepare()
-        self._journal, self.history = (
-            MissionJournal.in_home(where.home),
-            GoalHistory.in_home(where.home),
-        )
+        self._journal = MissionJournal.in_home(where.home)
+        self.history = GoalHistory.in_home(where.home)
         drawn = marks_path(where.home, self.site.map_id)
         limits = RouteLimits.of(self.description)
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits, drawn)
         taught = TaughtPlaces.in_home(where.home, self._state)
-        self.memory = KnownPlaces(
-            self.site, taught, radius_m=self.description.base.radius_m, marks=drawn
-        )
+        radius_m = self.description.base.radius_m
+        self.memory = KnownPlaces(self.site, taught, radius_m=radius_m, marks=drawn)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
         self._voice = VoiceParts(self.settings, self._list_spoken_names)
         self.memory.listen(self._voice.learn_names)
         self.ears, self.speaker = self._voice.recogniser(), self._voice.speaker
-        ros2 = self.description.ros2
-        by_nav2 = ros2 is not None and ros2.nav2 is not None
-        link = Link(WireBus(self._session, nav2=by_nav2), self.description)
+        link = Link(
+            WireBus(self._session, nav2=_is_driven_by_nav2(self.description)), self.description
+        )
         self.robot = LinkedRobot(link, self.description)
         self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None
@@ -242,6 +239,10 @@ def _model(
     warm_up()
     log.info("plans come from %s at %s", model.tag.name, model.address.host)
     return model
+
+
+def _is_driven_by_nav2(robot: RobotDescription) -> bool:
+    return robot.ros2 is not None and robot.ros2.nav2 is not None
 
 
 def _state_of(home: Path) -> StateDatabase:

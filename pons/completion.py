@@ -42,13 +42,13 @@ def run(shell: str) -> int:
 
 def grammars() -> argparse.ArgumentParser:
     """Return the whole grammar, with that of the commands that read their own words."""
-    from pons import mapping, robot, site
+    from pons import mapping, robot, site_grammar
     from pons.grammar import MAP, ROBOT, SITE, parser
 
     top = parser()
     commands = _commands(top)
     commands[ROBOT] = robot.parser()
-    commands[SITE], commands[MAP] = site.parser(), mapping.parser()
+    commands[SITE], commands[MAP] = site_grammar.parser(), mapping.parser()
     return top
 
 

@@ -23,15 +23,7 @@ from planner.navigation.frontier import FrontierMemory
 from tools.lockstep.latencies import TICK_S
 from tools.lockstep.marked_router import note_places, routers_of
 from tools.lockstep.tick_loop import TickLoop
-from wire import (
-    VIRTUAL_KEY,
-    MarksFile,
-    MarksRequest,
-    OpKind,
-    OpRequest,
-    sign_marks,
-    signed_request,
-)
+from wire import VIRTUAL_KEY, MarksFile, MarksRequest, OpKind, OpRequest, sign_marks, signed_request
 from wire.fence import fence_text
 
 if TYPE_CHECKING:
