@@ -8,7 +8,8 @@ closes lets go at once.
 
 A page sends ``{"seq": 7, "beat": 12, "forward": 0.5, "left": 0.0, "held": true}``, 20 times a
 second while a person holds the stick and 4 times while not; first, if it likes,
-``{"name": "Ana"}``. Twenty beats a second come back.
+``{"name": "Ana"}``, which a person with a token of their own bears anyhow. Twenty beats a second
+come back.
 """
 
 from __future__ import annotations
@@ -197,7 +198,9 @@ class _Stick:
     def __init__(self, services: Services, socket: WebSocket) -> None:
         self.source = f"page-{secrets.token_hex(6)}"
         self._robot, self._socket = services.robot, socket
-        self._hand, self._name = Hand(), ""
+        person = socket.scope.get("state", {}).get("person")
+        self._hand, self._name = Hand(), "" if person is None else person.name
+        self._is_known = person is not None
 
     async def attend(self) -> None:
         """Run until either side ends it; then the stick is let go at once."""
@@ -251,7 +254,8 @@ class _Stick:
 
     def _hear(self, content: dict[str, Any]) -> None:
         if "name" in content:
-            self._name = HandName.model_validate(content).name.strip()
+            said = HandName.model_validate(content).name.strip()
+            self._name = self._name if self._is_known else said
             return
         frame = HandFrame.model_validate(content)
         taken = is_taken(self._robot, self.source)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import ExitStack
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -13,9 +14,10 @@ from websockets.sync.client import ClientConnection, connect
 
 from planner.api.access import Access, AccessError
 from planner.api.hand import APART_S, CAUSAL_S, MOST_SOCKETS, RELEASED, Hand, HandFrame, StickOrder
+from planner.people import Person, Role
 from planner.robot_service import MOST_HANDS, LinkedRobot
 from tests.e2e.polling import until
-from tests.planner.api.serving import Served, served
+from tests.planner.api.serving import LOCAL, Served, served
 from tests.wire.examples import STATUS
 from wire import HeldReason, Mode, RobotDescription, StandingHold, Status, Velocity
 
@@ -129,6 +131,18 @@ def test_fractions_become_speeds_below_the_robots_limits(server: Served) -> None
     assert server.services.robot.names[source] == "Ana"
     assert (v_mps, w_radps) == (0.5 * limits.max_speed_mps, -limits.max_turn_radps)
     assert dead_man is True
+
+
+def test_a_person_bears_their_own_name_whatever_the_page_says() -> None:
+    ana = Person("ana", "Ana", Role.OPERATOR, "2026-01-01T00:00:00+00:00")
+    with served(access=replace(LOCAL, find_person={"t": ana}.get)) as running:
+        url = f"ws://127.0.0.1:{running.port}/v1/hand"
+        with connect(url, additional_headers={"authorization": "Bearer t"}) as socket:
+            socket.send('{"name": "Bob"}')
+            say(socket, 1)
+            source = say(socket, 2, held=True)["id"]
+            told(running, 2)
+        assert running.services.robot.names[source] == "Ana"
 
 
 def test_a_socket_that_closes_lets_go(server: Served) -> None:
