@@ -28,7 +28,10 @@ SENTENCE = "go to the kitchen"
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """Hold what a figure may be at most now, and where it is to come; the first only goes down."""
+    """Hold what a figure may be at most now, and where it is to come; the first only goes down.
+
+    Marks raised the bridge's files from 34 to 35 (docs/adr/0079).
+    """
 
     most: int
     aim: int
@@ -36,7 +39,7 @@ class Limit:
 
 FILES, FUNCTIONS = Limit(109, 60), Limit(486, 250)
 EXPRESSIONS = Limit(286, 300)
-BRIDGE_FILES = Limit(34, 25)
+BRIDGE_FILES = Limit(35, 25)
 LIMIT_S = 20.0
 UNDER_WAY_S = 2.0
 """Then it drives at full speed, and the first tick's special cases are over."""

@@ -165,6 +165,8 @@ class GoalHistory:
         return self._made
 
     def _find(self, query: HistoryQuery) -> HistoryPage:
+        if not self._path.exists():  # nothing was ever ordered here
+            return HistoryPage(goals=(), next=None)
         wanted = sa.select(rows).where(*_conditions(query)).order_by(rows.c.order.desc())
         with self._engine.connect() as connection:
             found = connection.execute(wanted.limit(query.limit + 1)).mappings().all()
@@ -172,6 +174,8 @@ class GoalHistory:
         return HistoryPage(goals=shown, next=shown[-1].order if len(found) > len(shown) else None)
 
     def _story(self, goal_id: str) -> tuple[Mission, GoalStory]:
+        if not self._path.exists():
+            raise UnknownGoal(goal_id, ())
         with self._engine.connect() as connection:
             record = connection.execute(_RECORD, {"goal": goal_id}).scalar()
             changed = connection.execute(_CHANGES, {"goal": goal_id}).all()

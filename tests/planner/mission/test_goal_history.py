@@ -25,7 +25,7 @@ def mission(order: int, text: str, state: GoalState = GoalState.SUCCEEDED) -> Mi
     outcome = Outcome(code=Code.DONE, message=message(Code.DONE)) if ended else None
     return Mission(
         id=f"g{order}", order=order, text=text, language=Language.EN, state=state, outcome=outcome,
-        source="cli:ana", questions=("Which cup?",), replies=("the red one",), metres=2.5,
+        by="cli:ana", questions=("Which cup?",), replies=("the red one",), metres=2.5,
         created_unix_s=order * DAY_S, updated_unix_s=order * DAY_S + 40.0,
     )  # fmt: skip
 

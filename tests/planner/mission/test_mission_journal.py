@@ -20,6 +20,7 @@ from sqlalchemy.dialects.postgresql.base import PGDialect
 from planner.language.catalogue import message
 from planner.mission.effects import Journal
 from planner.mission.journal import (
+    KEPT_WHOLE,
     MAX_KEPT,
     PRUNE_EVERY,
     PRUNE_MOST,
@@ -106,10 +107,12 @@ def test_the_oldest_goals_that_ended_leave_the_disk_and_no_open_one_does(tmp_pat
     assert kept.missions[-1].id == f"e{MAX_KEPT + 4 * PRUNE_EVERY - 1}"
     engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
     with engine.connect() as connection:
-        for table, column in (("missions", "id"), ("transitions", "mission")):
+        for table, column, most in (
+            ("missions", "id", MAX_KEPT), ("transitions", "mission", KEPT_WHOLE),
+        ):  # fmt: skip
             found = connection.execute(sa.text(f"select {column} from {table}")).scalars().all()
             ended_ids = [name for name in found if name.startswith("e")]
-            assert len(ended_ids) == MAX_KEPT
+            assert len(ended_ids) == most
             assert "e0" not in ended_ids
             assert sum(name.startswith("open") for name in found) == 5
     engine.dispose()
