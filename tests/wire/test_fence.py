@@ -9,12 +9,15 @@ from pydantic import ValidationError
 
 from wire import FenceRequest, Proof, authentic, authentic_fence, sign, sign_fence
 from wire.fence import (
+    MAX_MARK_CORNERS,
     MAX_TEXT,
     FenceFile,
+    MarksFile,
     area_m2,
     crosses_itself,
     fence_text,
     flaw,
+    marks_flaw,
     text_sha256,
 )
 from wire.fingerprint import fingerprint
@@ -109,3 +112,21 @@ def test_the_text_says_what_the_record_says() -> None:
     record = fence(speed_zones=[{"polygon": [[0, 0], [1, 0], [0, 1]], "max_speed_mps": 0.3}])
     assert FenceFile.model_validate_json(fence_text(record), strict=False) == record
     assert area_m2(record.allowed[0]) == pytest.approx(0.5)
+
+
+def test_every_mark_is_looked_at_and_each_flaw_has_its_code() -> None:
+    square, bow = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 0], [2, 2], [2, 0], [0, 2], [-1, 1]]
+    ring = [[float(n), float(n * n)] for n in range(60)]
+    for outlines, code in (
+        ([square], None),
+        ([square, bow], "mark_crosses_itself"),
+        ([[[0, 0], [0.1, 0], [0, 0.1]]], "mark_too_small"),
+        ([ring] * (MAX_MARK_CORNERS // len(ring) + 1), "marks_too_many"),
+    ):
+        drawn = [{"polygon": outline, "max_speed_mps": 0.2} for outline in outlines]
+        for marks in ({"keep_outs": outlines}, {"speed_zones": drawn}):
+            record = MarksFile.model_validate(
+                {"version": 1, "map_id": "0" * 16, **marks}, strict=False
+            )
+            found = marks_flaw(record)
+            assert (found and found[0]) == code
