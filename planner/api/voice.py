@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict
 from planner.api.goals import IdempotencyKey
 from planner.api.interfaces import Services
 from planner.api.operator import act_behind
+from planner.api.people import source_of
 from planner.api.problems import HttpProblem
 from planner.language.catalogue import say
 from planner.language.sentence import parse
@@ -104,7 +105,7 @@ def routes(services: Services) -> APIRouter:
             replace=replace,
             idempotency_key=idempotency_key,
             act=act_behind(services.robot, parse(text), None),
-            by="voice",
+            by=source_of(request, "voice"),
         )
         outcome = SpokenOutcome(code="heard")
         return VoiceResult(**_facts(heard), understood=text, goal=goal, outcome=outcome)
