@@ -80,5 +80,6 @@ def _bill(recorded: RecordedDecisions, model: ModelSettings, host: str) -> str:
     return pick(
         f"{count} recorded sentences of people will be sent to {model.name} at {host}, which is "
         f"not this machine: at most {calls} calls.",
-        f"将把 {count} 条录下的指令发送给 {host} 上的 {model.name}，最多 {calls} 次调用。",
+        f"将把 {count} 条录下的指令发送给 {host}（不是本机）上的 {model.name}，"
+        f"最多 {calls} 次调用。",
     )

@@ -65,7 +65,9 @@ def run(
 
 
 def _tell_waiting() -> None:
-    told = pick("waiting for its first word: the model may be loading", "正在等待模型加载")
+    told = pick(
+        "waiting for its first word: the model may be loading", "正在等待第一个词：模型可能还在加载"
+    )
     print(told, file=sys.stderr)
 
 
@@ -73,15 +75,15 @@ def _bill(settings: Settings, model: ModelSettings, host: str, caps: Caps) -> st
     """Give an exam's highest cost, before it costs anything."""
     sent, written = caps.calls * PROMPT_TOKENS, caps.calls * model.max_tokens
     price = settings.budget.price
-    money = (
-        "no price is set in [budget.price]"
-        if price is None
-        else f"at most {cost(price, sent, written):.2f} {price.currency}"
-    )
+    money = pick("no price is set in [budget.price]", "[budget.price] 未设价格")
+    if price is not None:
+        most = pick("at most", "最多")
+        money = f"{most} {cost(price, sent, written):.2f} {price.currency}"
     return pick(
         f"The exam asks {model.name} at {host}, which is not this machine: at most {caps.calls} "
         f"calls in {caps.seconds:.0f} s, at most {sent} tokens sent and {written} written "
         f"({money}). Only the exam's own sentences and a drawn picture are sent.",
-        f"考试将调用 {host} 上的 {model.name}：最多 {caps.calls} 次、{caps.seconds:.0f} 秒，"
-        f"最多发送 {sent}、生成 {written} 个 token。只发送考题本身和一张绘制的图。",
+        f"考试将调用 {host}（不是本机）上的 {model.name}："
+        f"最多 {caps.calls} 次、{caps.seconds:.0f} 秒，"
+        f"最多发送 {sent}、生成 {written} 个 token（{money}）。只发送考题本身和一张绘制的图。",
     )

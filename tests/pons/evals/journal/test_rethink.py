@@ -187,10 +187,14 @@ def test_as_many_calls_are_allowed_as_were_agreed_to(
     monkeypatch.setenv("PONS_HOME", str(tmp_path / "mine"))
     monkeypatch.setattr("pons.evals.model_access.Purse", refused)
     words = ["replay", str(home), "--with-model", "m@https://model.example/v1", "--yes"]
-    assert main(words) == 2
-    said = capsys.readouterr().err
-    assert f"at most {allowed[0]} calls" in said
-    assert f"最多 {allowed[0]} 次" in said
+    for locale, told, where in (
+        ("C", "at most {} calls", "not this machine"), ("zh_CN.UTF-8", "最多 {} 次", "不是本机"),
+    ):  # fmt: skip
+        monkeypatch.setenv("LC_ALL", locale)
+        assert main(words) == 2
+        said = capsys.readouterr().err
+        assert told.format(allowed[-1]) in said
+        assert where in said
 
 
 def test_each_end_of_a_decision_is_told(tmp_path: Path) -> None:

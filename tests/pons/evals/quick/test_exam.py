@@ -255,17 +255,16 @@ def test_elsewhere_it_says_what_it_will_spend_and_spends_nothing_unasked(
         "[budget.price]\nprompt_per_million = 10\nreply_per_million = 100\n"
     )
     monkeypatch.setattr("sys.stdin.isatty", lambda: False, raising=False)
-    assert main(["doctor", "--model"]) == command.REFUSED
-    said = capsys.readouterr()
-    assert said.out == ""
-    for words in (
-        "model.example",
-        "40 calls",
-        "at most 140000 tokens",
-        "at most 3.40 USD",
-        "not_agreed",
+    for locale, told in (
+        ("C", ("not this machine", "40 calls", "at most 140000 tokens", "at most 3.40 USD")),
+        ("zh_CN.UTF-8", ("不是本机", "40 次", "最多发送 140000", "最多 3.40 USD")),
     ):
-        assert words in said.err
+        monkeypatch.setenv("LC_ALL", locale)
+        assert main(["doctor", "--model"]) == command.REFUSED
+        said = capsys.readouterr()
+        assert said.out == ""
+        for words in ("model.example", "not_agreed", *told):
+            assert words in said.err
     assert main(["doctor", "--model", "--yes"]) == command.EXIT["F"]
     assert main(["doctor", "--model", "http://169.254.169.254/v1", "--yes"]) == command.REFUSED
     assert "model_url" in capsys.readouterr().err
