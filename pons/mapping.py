@@ -92,7 +92,9 @@ def _numbers(text: str) -> frozenset[int]:
     try:
         return frozenset(map(int, text.split(",")))
     except ValueError:
-        expected = pick("expected numbers as the list shows them, as 3,5", "应为列表中的编号")
+        expected = pick(
+            "expected numbers as the list shows them, as 3,5", "应为列表中的编号，如 3,5"
+        )
         told = f"{text!r}; {expected}"
         raise argparse.ArgumentTypeError(told) from None
 

@@ -45,7 +45,10 @@ RELAY_GONE: Final = (
         "relay_gone: it is a part of pons_ros2 now: `pons robot node FOLDER` writes that "
         "(docs/ros2.md)"
     ),
-    "relay_gone: 中继节点现在是 pons_ros2 软件包的一部分：请用 `pons robot node FOLDER` 写出",
+    (
+        "relay_gone: 中继节点现在是 pons_ros2 软件包的一部分：请用 `pons robot node FOLDER` 写出"
+        "（docs/ros2.md）"
+    ),
 )
 _TAKERS: Final = {
     "brltty": "port_brltty",

@@ -113,15 +113,17 @@ def test_without_a_robot_that_can_be_asked_it_says_why(
 
 
 def test_a_site_is_not_imported_from_a_robot_that_is_none_of_ros_2(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "robot.toml"
     path.write_text("")
     settings = LaunchSettings(tmp_path, path, tmp_path, "127.0.0.1", 1)
-    assert site.run(settings, ["import", "ros2:/map", "mine"]) == 3
-    said = capsys.readouterr().err
-    assert "ros2_not_configured" in said
-    assert "请添加 ros2 部分" in said
+    for locale, told in (("C", "add the part ros2"), ("zh_CN.UTF-8", "请添加 ros2 部分")):
+        monkeypatch.setenv("LC_ALL", locale)
+        assert site.run(settings, ["import", "ros2:/map", "mine"]) == 3
+        said = capsys.readouterr().err
+        assert "ros2_not_configured" in said
+        assert told in said
 
 
 def test_the_doctor_hears_the_node_and_says_where_nobody_answers(
@@ -150,10 +152,12 @@ def test_the_package_is_written_into_a_new_folder_alone(
 
 
 def test_who_asks_for_the_relay_is_told_of_the_package(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     settings = LaunchSettings(tmp_path, tmp_path, tmp_path, "127.0.0.1", 1)
-    assert run(settings, ["relay"]) == 3
-    refused = capsys.readouterr().err
-    assert "relay_gone" in refused
-    assert refused.count("pons robot node FOLDER") == 2
+    for locale, told in (("C", "it is a part of pons_ros2"), ("zh_CN.UTF-8", "中继节点现在是")):
+        monkeypatch.setenv("LC_ALL", locale)
+        assert run(settings, ["relay"]) == 3
+        refused = capsys.readouterr().err
+        for words in ("relay_gone", "pons robot node FOLDER", "docs/ros2.md", told):
+            assert words in refused
