@@ -85,14 +85,18 @@ def test_the_status_line_tells_configured_from_learnt() -> None:
     assert "braking_file_unreadable" in braking_line(told)
 
 
-def test_weak_brakes_are_told_in_both_languages_with_what_to_do() -> None:
+@pytest.mark.parametrize(("locale", "told"), [("C", "The brakes reach"), ("zh_CN.UTF-8", "制动力")])
+def test_weak_brakes_are_told_in_the_persons_language_with_what_to_do(
+    locale: str, told: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("LC_ALL", locale)
     said = STATUS.model_dump(mode="json")
     said["limits"]["by"] = "weak_brakes"
     shown = "\n".join(robot_lines({"status": said, "room": None}))
     assert "pons braking forget" in shown
-    assert "制动力" in shown
+    assert told in shown
     said["limits"]["by"] = "obstacle"
-    assert "制动力" not in "\n".join(robot_lines({"status": said, "room": None}))
+    assert told not in "\n".join(robot_lines({"status": said, "room": None}))
 
 
 def test_a_hello_that_is_refused_is_shown_with_its_remedy() -> None:

@@ -110,16 +110,25 @@ def _of_another_run(odometry: Odometry | None) -> Odometry | None:
 
 @pytest.mark.parametrize("data", [None, b"", b"no recording at all"])
 def test_what_is_no_recording_is_refused(
-    data: bytes | None, settings: LaunchSettings, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    data: bytes | None,
+    settings: LaunchSettings,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     path = tmp_path / "a.mcap"
     if data is not None:
         path.write_bytes(data)
     assert mapping.run(settings, ["attic", str(path)]) == 3
     code = {None: "recording_missing", b"": "map_no_drive"}.get(data, "recording_not_mcap")
-    said = capsys.readouterr().err
-    assert code in said
-    assert "录制" in said
+    english = capsys.readouterr().err
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    assert mapping.run(settings, ["attic", str(path)]) == 3
+    chinese = capsys.readouterr().err
+    assert code in english
+    assert english.isascii()
+    assert code in chinese
+    assert "录制" in chinese
 
 
 def test_a_disk_without_room_is_refused(
@@ -139,10 +148,13 @@ def test_what_a_drive_has_kept_becomes_a_site_and_goes_on_another_day(
     robot = load_robot(settings.robot)
     mapping.prepare_canvas(settings, "attic", robot)
     canvas = settings.home / "mapping" / "attic"
-    assert mapping.run(settings, ["attic"]) == 3
-    said, chinese = capsys.readouterr().err.splitlines()
-    assert "map_not_begun" in said
-    assert "begun are" not in chinese
+    with pytest.MonkeyPatch.context() as patched:
+        for locale, told in (("C", "begun are: none"), ("zh_CN.UTF-8", "已开始的有：无")):
+            patched.setenv("LC_ALL", locale)
+            assert mapping.run(settings, ["attic"]) == 3
+            (said,) = capsys.readouterr().err.splitlines()
+            assert "map_not_begun" in said
+            assert told in said
     assert mapping.run(settings, ["other", str(drive[0])]) == 0
     kept = settings.home / "sites" / "other" / "keyframes.npz"
     (canvas / "keyframes.npz").write_bytes(kept.read_bytes())

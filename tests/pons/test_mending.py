@@ -43,7 +43,10 @@ def stale_site(settings: LaunchSettings) -> Path:
 
 
 def test_a_drive_mends_a_site_and_nothing_of_it_is_lost(
-    drive: Drive, settings: LaunchSettings, capsys: pytest.CaptureFixture[str]
+    drive: Drive,
+    settings: LaunchSettings,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     folder = stale_site(settings)
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -51,7 +54,14 @@ def test_a_drive_mends_a_site_and_nothing_of_it_is_lost(
     TaughtPlaces.in_home(settings.home).save((taught("spot", 2.0, 1.0, old.map_id),))
     assert mapping.run(settings, ["den", "--mend", str(drive[0])]) == 0, capsys.readouterr().err
     told = capsys.readouterr().out
-    assert "gone  已不在  0.50 x 0.40 m" in told
+    assert "gone   0.50 x 0.40 m" in told
+    with monkeypatch.context() as patched:
+        patched.setenv("LC_ALL", "zh_CN.UTF-8")
+        assert mapping.run(settings, ["den", "--mend", "--without", "1"]) == 0
+        assert "0.50 x 0.40 m" in (chinese := capsys.readouterr().out)
+        assert "已不在" in chinese
+    assert mapping.run(settings, ["den", "--mend", str(drive[0])]) == 0
+    assert told == capsys.readouterr().out
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
     assert (settings.home / "mending" / "den" / "changes.png").is_file()
     mend_id = told.split("--accept ")[1].split()[0]

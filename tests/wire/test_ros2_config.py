@@ -76,7 +76,7 @@ kind = "ros2"
     ],
 )  # fmt: skip
 def test_a_robot_toml_of_the_relay_and_its_transports_is_told_what_to_install_and_write(
-    tmp_path: Path, keys: str, says: list[str]
+    tmp_path: Path, keys: str, says: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "robot.toml"
     path.write_text(FORMER.format(keys))
@@ -86,6 +86,8 @@ def test_a_robot_toml_of_the_relay_and_its_transports_is_told_what_to_install_an
     assert refused.value.code == "ros2_former_keys"
     for words in ("pons robot node", "eclipse-zenoh", 'node = "tcp/127.0.0.1:7448"', *says):
         assert words in told, words
+    assert not chinese_line(told)
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
     chinese = chinese_line(told)
     assert "pons robot node" in chinese
     assert "docs/ros2.md" in chinese

@@ -106,7 +106,10 @@ def refusal(bench: Bench) -> str:
     with pytest.raises(CalibrationRefusal) as refused:
         bench.calibrate()
     assert bench.world.standing
-    assert any("一" <= character <= "鿿" for character in refused.value.lines()[-1])
+    assert refused.value.lines()[-1].isascii()
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("LC_ALL", "zh_CN.UTF-8")
+        assert any("一" <= character <= "鿿" for character in refused.value.lines()[-1])
     return refused.value.code
 
 

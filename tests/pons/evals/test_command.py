@@ -60,10 +60,19 @@ def test_our_own_suites_reach_the_goal(capsys: pytest.CaptureFixture[str]) -> No
     ],
 )
 def test_a_line_that_can_not_be_read_is_told_with_its_number(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], line: str, told: str
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    line: str,
+    told: str,
 ) -> None:
     path = tmp_path / "mine.tsv"
     path.write_text(f"{line}\n", encoding="utf-8")
+    assert main(["eval", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert told in said
+    assert said.isascii()
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
     assert main(["eval", str(path)]) == 2
     said = capsys.readouterr().err
     assert told in said
@@ -71,11 +80,13 @@ def test_a_line_that_can_not_be_read_is_told_with_its_number(
 
 
 def test_an_unknown_suite_is_told_with_all_that_there_are(
-    capsys: pytest.CaptureFixture[str],
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert main(["eval", "nosuch"]) == 2
-    said = capsys.readouterr().err
-    assert all(name in said for name in ("home", "guard_zh", "没有这个句集"))
+    for locale, told in (("C", "no suite"), ("zh_CN.UTF-8", "没有这个句集")):
+        monkeypatch.setenv("LC_ALL", locale)
+        assert main(["eval", "nosuch"]) == 2
+        said = capsys.readouterr().err
+        assert all(words in said for words in ("home", "guard_zh", told))
 
 
 @pytest.mark.parametrize("name", ["chat_en", "chat_zh"])

@@ -119,15 +119,20 @@ def test_a_port_that_may_not_be_opened_is_not(tmp_path: Path) -> None:
     assert question_port(entry(tmp_path / "none", is_permitted=False)).code == "port_missing"
 
 
-def test_a_group_that_does_not_exist_is_never_to_be_joined(tmp_path: Path) -> None:
+def test_a_group_that_does_not_exist_is_never_to_be_joined(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with played([PlayedNoise(tmp_path / "line", 0)]):
         found = question_port(entry(tmp_path / "line", is_permitted=False, group=""))
         with SerialPort(tmp_path / "line", 115_200):  # whose holder this user could not see
             held = question_port(entry(tmp_path / "line"))
-    (_, english, chinese) = describe([found])
+    (_, english) = describe([found])
+    (_, busy) = describe([held])
+    assert busy.startswith("  port_busy: held by a program of another user (`sudo fuser -v ")
+    monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
+    (_, chinese) = describe([found])
+    assert "没有任何用户组" in chinese
     assert "usermod" not in english + chinese
-    (_, english, _) = describe([held])
-    assert english.startswith("  port_busy: held by a program of another user (`sudo fuser -v ")
 
 
 def test_a_port_that_a_program_holds_is_busy_and_is_not_spoken_to(tmp_path: Path) -> None:
