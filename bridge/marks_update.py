@@ -19,7 +19,7 @@ from pydantic import ValidationError
 from bridge.core.inbox import FenceDone
 from bridge.core.state_orders import Marks, PendingMarks
 from bridge.files import replace_file
-from wire.errors import ConfigError
+from wire.errors import ConfigError, Unwritable
 from wire.fence import MAX_MARKS_TEXT, MarksFile, marks_flaw
 from wire.fingerprint import fingerprint
 from wire.plain_file import read_plain_file
@@ -57,9 +57,11 @@ def load_marks(path: Path, map_id: str) -> str:
     """
     try:
         text = read_plain_file(path, MAX_MARKS_TEXT).decode()
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):  # of a home that is none others tell
         return ""
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise Unwritable("marks_unreadable", f"{path}: {error.strerror}") from None
+    except UnicodeDecodeError as error:
         raise ConfigError("marks_invalid", f"{path}: {error}") from None
     if text:
         read_marks(text, map_id, str(path))

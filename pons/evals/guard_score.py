@@ -19,7 +19,7 @@ from pons.evals.hostile_plans import expected_plan, hostile_plans, is_allowed, n
 from pons.evals.suites import Case, Suite
 from pons.evals.world import EvalWorld
 
-MOST_NEEDLESS = 0.02
+MOST_NEEDLESS = 0.03
 
 
 @dataclass(frozen=True, slots=True)

@@ -77,6 +77,17 @@ def until(there: Any) -> None:
         time.sleep(0.005)
 
 
+def test_a_file_that_can_not_be_read_now_is_tried_again_and_a_home_that_is_none_has_no_marks(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "file"
+    file.write_text("")
+    assert load_marks(file / "fence" / "marks.json", MAP) == ""
+    with pytest.raises(ConfigError, match="marks_unreadable") as refused:
+        load_marks(tmp_path, MAP)
+    assert refused.value.exit_status == 1
+
+
 def test_the_desk_answers_once_and_writes_back_what_the_core_refused(paper: Paper) -> None:
     desk = MarksDesk(paper)
     before, asked = Marks(), PendingMarks("m1", "cli", text(BOX))
