@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter
 from pydantic import Field
-from starlette.requests import Request
+from starlette.requests import HTTPConnection, Request
 
 from planner.api.problems import HttpProblem
 from planner.api.schemas import Body
@@ -61,7 +61,7 @@ def routes(services: Services) -> APIRouter:
     return router
 
 
-def source_of(request: Request, said: str) -> str:
+def source_of(request: HTTPConnection, said: str) -> str:
     """Return whose request this is, for the record: the person of its token, else as it says."""
     person: Person | None = request.scope.get("state", {}).get("person")
     return said if person is None else person.id
