@@ -123,7 +123,7 @@ def test_a_held_stick_moves_the_robot_and_its_end_stops_it(
     end(page)
     robot.judge.until_standing(STANDS_S)
     page.locator("#hand-state", has_text=words).wait_for()
-    assert robot.judge.status.mode is Mode.HOLD
+    until(lambda: robot.judge.status.mode is Mode.HOLD, 2.0, "a hold", robot.judge.describe)
     page.wait_for_timeout(600)
     assert robot.judge.status.mode is Mode.HOLD, "a finger that stays down drives no more"
 
@@ -159,12 +159,14 @@ def test_one_of_two_people_drives_and_the_other_is_told_who(
     driven(robot, page, hold_mouse)
     other.locator("#hand-state", has_text="Ana <b> drives").wait_for()
     hold_mouse(other)
-    other.locator("#hand-state", has_text="free once they let go").wait_for()
+    refused = "Ana <b> drives. The stick is free once they let go."
+    other.locator("#hand-state", has_text=refused).wait_for()
     other.mouse.up()
     page.wait_for_timeout(300)
     assert robot.judge.status.mode is Mode.TELEOP, "the other's release ends nothing"
     page.mouse.up()
     robot.judge.until_standing(STANDS_S)
+    other.locator("#hand-state", has_text="Ready").wait_for()
     driven(robot, other, hold_mouse)
     page.locator("#hand-state", has_text="Somebody else drives").wait_for()
     other.mouse.up()

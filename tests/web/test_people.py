@@ -27,9 +27,11 @@ def test_a_link_makes_a_page_a_persons_until_it_is_taken_back(
     set_off(robot, anywhere(robot))
     theirs.keyboard.press("Space")
     until(lambda: robot.judge.status.held, 5.0, "the stop that holds the robot")
-    stopped = until(lambda: robot.system.goals()[0]["stopped_by"], 5.0, "who stopped it")
-    assert stopped == "anas-phone"
-    page.locator(".turn", has_text="anas-phone").wait_for()
+    page.locator("#tab-drive").click()
+    paused = page.locator(".turn[data-state=paused]")
+    paused.locator(".reason", has_text="stopped by anas-phone").wait_for()
+    assert robot.system.goal(paused.get_attribute("data-goal") or "")["stopped_by"] == "anas-phone"
+    page.locator("#tab-robot").click()
     people = page.locator("#people")
     people.get_by_role("button", name="Remove: Ana's phone").click()
     people.get_by_role("button", name="Yes, remove").click()

@@ -53,7 +53,9 @@ def test_a_tap_and_two_words_send_it_to_a_point(
     set_off(robot, go)
     page.locator("#to-go").wait_for()
     goal_id = newest(robot)
-    assert "point (" in arrived(robot, page, goal_id)
+    told = arrived(robot, page, goal_id)
+    assert "point (" in told
+    assert "by the page" in told
     assert away_m(robot, spot) <= REACHED_M + 0.05  # by the simulator's truth, less the click's
 
 
@@ -68,10 +70,11 @@ def test_the_arrow_keys_and_enter_do_what_a_pointer_does(robot: Robot, open_page
     page.keyboard.press("Enter")
     page.focus("#map")
     page.keyboard.press("Shift+ArrowRight")
-    page.keyboard.press("Enter")
-    page.locator("#now .goal, #past li").first.wait_for()
-    plan = robot.system.goals()[0]["plan"]
-    step = plan["steps"][0]
+    with page.expect_response("**/v1/goals") as answered:
+        page.keyboard.press("Enter")
+    goal_id = answered.value.json()["id"]
+    page.locator(f".turn[data-goal='{goal_id}'] .step").first.wait_for(state="attached")
+    step = robot.system.goal(goal_id)["plan"]["steps"][0]
     assert step["kind"] == "go_to_pose"
     assert step["yaw_rad"] == pytest.approx(0.0, abs=0.1)
     page.click("#stop")

@@ -1,5 +1,14 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { ApiError, fetchObjects, fetchPicture } from "../src/net/api";
+import {
+  actOnGoal,
+  answerGoal,
+  ApiError,
+  fetchObjects,
+  fetchPicture,
+  giveGoal,
+  giveOrder,
+} from "../src/net/api";
+import { givePoints, putMarks } from "../src/net/marks";
 import { setToken, tokenNeeded } from "../src/net/token";
 
 const answering = (make: () => Response): void => {
@@ -55,5 +64,26 @@ describe("a refused token", () => {
     answer(refused());
     expect(await asked).toBe("token_needed");
     expect(tokenNeeded.value).toBe(false);
+  });
+});
+
+describe("what a person orders on the page", () => {
+  const marks = { version: 1, map_id: "m", keep_outs: [], speed_zones: [] } as const;
+  const here = { x_m: 1, y_m: 2 };
+  it.each([
+    ["a sentence", () => giveGoal("wait", false, null)],
+    ["points of the map", () => givePoints([here], "m", "en", false, null)],
+    ["an answer", () => answerGoal("g", "yes", null)],
+    ["an act", () => actOnGoal("g", "cancel")],
+    ["marks", () => putMarks(marks, null, null)],
+    ["a standing order", () => giveOrder("every day wait")],
+  ])("is told as the page's: %s", async (_, order) => {
+    const sent: unknown[] = [];
+    vi.stubGlobal("fetch", (_path: string, request: RequestInit) => {
+      sent.push(JSON.parse(request.body as string));
+      return Promise.resolve(Response.json({}));
+    });
+    await order();
+    expect(sent).toEqual([expect.objectContaining({ source: "page" })]);
   });
 });

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import codes from "../src/i18n/codes.json";
+import { byWhom, language } from "../src/i18n";
 import { en } from "../src/i18n/en";
 import rows from "../src/i18n/rows.json";
 import { zh } from "../src/i18n/zh";
@@ -46,5 +47,18 @@ describe("catalogues", () => {
       expect(words.en).not.toBe("");
       expect(words.zh).toMatch(/[\u4e00-\u9fff]/);
     }
+  });
+});
+
+describe("who did something", () => {
+  it.each([
+    ["page", "by the page", "通过网页"],
+    ["anas-phone", "by anas-phone", "由anas-phone"],
+    ["constructor", "by constructor", "由constructor"],
+  ])("is told in words: %s", (who, inEnglish, inChinese) => {
+    language.value = "en";
+    expect(byWhom(who)).toBe(inEnglish);
+    language.value = "zh";
+    expect(byWhom(who)).toBe(inChinese);
   });
 });

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import urlsafe_b64encode
 from dataclasses import replace
 from pathlib import Path
 
@@ -43,6 +44,14 @@ def test_what_a_person_does_is_written_down_as_theirs(
     assert client.post("/v1/stop", json={"source": "page"}, headers=ana).status_code == 200
     assert client.post("/v1/stop", json={"source": "page"}, headers=OWNER).status_code == 200
     assert services.goals.stops == ["anas-phone", "page"]
+    token = ana["authorization"].removeprefix("Bearer ").encode()
+    offered = ["pons.v1", f"bearer.{urlsafe_b64encode(token).decode().rstrip('=')}"]
+    at = "ws://127.0.0.1/v1/events"
+    with client.websocket_connect(at, subprotocols=offered) as socket:
+        socket.send_json({"stop": True})
+        while socket.receive_json()["kind"] != "stopped":
+            pass
+    assert services.goals.stops.pop() == "anas-phone"
     client.post("/v1/goals", json={"text": "go to the kitchen"}, headers=ana)
     client.post("/v1/goals", json={"text": "go to the kitchen"}, headers=OWNER)
     assert services.goals.doors == ["anas-phone", "api"]

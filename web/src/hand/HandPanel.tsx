@@ -75,13 +75,15 @@ function Stick() {
   );
 }
 
-/** Say who drives; else why not. */
+/** Say who drives, and to whom asked for the stick meanwhile when it is free; else why nobody does. */
 function words(): string {
   const { open, held, driving, why } = stickNow.value;
   if (driving) return t("hand.you");
   const other = driverNow.value;
-  if (other !== null && held === null) return othersWords(other);
-  if (why !== null) return word("hand.why", why);
+  const refused = why === "hand_taken"; // so only while that hand drives
+  if (other !== null && held === null)
+    return refused ? `${othersWords(other)} ${word("hand.why", why)}` : othersWords(other);
+  if (why !== null && !refused) return word("hand.why", why);
   if (!open) return t("hand.connecting");
   return t(held === null ? "hand.ready" : "hand.asking");
 }

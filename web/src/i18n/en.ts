@@ -303,6 +303,7 @@ export const en = {
   "by_whom.sentence": "by a sentence",
   "by_whom.cli": "by the command line",
   "by_whom.api": "by a program",
+  by_someone: "by {who}",
 
   "camera.title": "Camera",
   "camera.label": "What the camera sees",
@@ -525,7 +526,7 @@ export const en = {
   "hand.why.stopped": "Let go: Stop was pressed.",
   "hand.why.ended": "Let go: the robot took the stick away. Let go and hold it again.",
   "hand.why.not_taken": "The robot did not follow. Let go and hold the stick again.",
-  "hand.why.hand_taken": "Somebody else drives. The stick is free once they let go.",
+  "hand.why.hand_taken": "The stick is free once they let go.",
   "hand.why.hand_late": "Let go: the connection is too slow to drive by.",
   "rehearsal.title": "What it would do",
   "rehearsal.show": "Show first",

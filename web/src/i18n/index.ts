@@ -38,6 +38,10 @@ export function word(family: string, code: string): string {
   return Object.hasOwn(en, key) ? t(key as Key) : code;
 }
 
+/** Name a door or a person by whom something was done. */
+export const byWhom = (who: string): string =>
+  Object.hasOwn(en, `by_whom.${who}`) ? word("by_whom", who) : t("by_someone", { who });
+
 export const say = (words: Bilingual): string => words[language.value];
 
 type Words = Readonly<Record<string, Bilingual>>;

@@ -294,6 +294,7 @@ export const zh: Record<Key, string> = {
   "by_whom.sentence": "通过一句话",
   "by_whom.cli": "通过命令行",
   "by_whom.api": "由程序",
+  by_someone: "由{who}",
 
   "camera.title": "摄像头",
   "camera.label": "摄像头看到的画面",
@@ -514,7 +515,7 @@ export const zh: Record<Key, string> = {
   "hand.why.stopped": "已松开：有人按了停止。",
   "hand.why.ended": "已松开：机器人收回了控制。请松手后再按住。",
   "hand.why.not_taken": "机器人没有跟随。请松手后再按住摇杆。",
-  "hand.why.hand_taken": "其他人正在驾驶，对方松手后才能接管。",
+  "hand.why.hand_taken": "对方松手后才能接管。",
   "hand.why.hand_late": "已松开：连接太慢，不能驾驶。",
   "rehearsal.title": "将会怎样做",
   "rehearsal.show": "先演示",

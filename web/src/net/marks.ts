@@ -50,6 +50,6 @@ export async function givePoints(
 ): Promise<Goal> {
   const key = { "idempotency-key": newId("page") };
   const proof = operator ? { operator } : {};
-  const body = { points, map_id: mapId, language, replace, ...proof };
+  const body = { points, map_id: mapId, language, replace, source: "page", ...proof };
   return (await call("POST", "v1/goals", body, key)) as Goal;
 }

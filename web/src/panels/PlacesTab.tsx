@@ -1,7 +1,7 @@
 /** Teach places where the robot stands or at a point of the map, list what was taught, forget. */
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import { say, t, word } from "../i18n";
+import { byWhom, say, t } from "../i18n";
 import { forget, give, teach } from "../state/acts";
 import { forgetPick, picked, picking } from "../state/picking";
 import { steady } from "../state/steady";
@@ -221,8 +221,7 @@ function Line({ place }: { place: Taught }) {
       <span class="said">
         <strong dir="auto">{bothNames(place)}</strong>
         <span class="fine">
-          {t("places.by", { who: word("by_whom", place.by), when })} ·{" "}
-          {t("places.at", pair(place.pose))}
+          {t("places.by", { who: byWhom(place.by), when })} · {t("places.at", pair(place.pose))}
         </span>
         {place.message && <span class="reason">{say(place.message)}</span>}
       </span>

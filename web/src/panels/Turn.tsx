@@ -2,7 +2,7 @@
  * Show one turn of the conversation: what was said, by what door and when; what was understood, asked and
  * answered; how it ended, when and how far it went.
  */
-import { say, t, word } from "../i18n";
+import { byWhom, say, t, word } from "../i18n";
 import { act, give } from "../state/acts";
 import { asks, heldGoal } from "../state/facts";
 import { ended, onlyPartly } from "../state/goals";
@@ -55,11 +55,11 @@ export function Turn({ goal }: { goal: Goal }) {
 }
 
 const spokenWords = (by: string, atMs: number): string =>
-  t("places.by", { who: word("by_whom", by), when: when(atMs, now.peek().wallMs) });
+  t("places.by", { who: byWhom(by), when: when(atMs, now.peek().wallMs) });
 
 function whyWords(goal: Goal): string {
   const who = goal.stopped_by;
-  return who === null ? reasonWords(goal.reason) : t("said.stopped", { who: word("by_whom", who) });
+  return who === null ? reasonWords(goal.reason) : t("said.stopped", { who: byWhom(who) });
 }
 
 /** Show what was asked before and answered; it stays. */
