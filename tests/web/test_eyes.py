@@ -150,6 +150,8 @@ def test_what_is_seen_is_shown_and_may_be_gone_to_and_forgotten(
 def test_the_picture_is_fetched_only_while_it_is_looked_at(
     robot: Robot, open_page: OpenPage, size: tuple[int, int], locale: str
 ) -> None:
+    asked = ("GET", "/v1/camera.jpg")  # a camera is up after all else
+    until(lambda: robot.system.http(*asked).status == 200, 30.0, "the camera's first picture")
     scene = Scene()
     page = open_page(size, locale, before=scene.stand)
     page.locator("#camera summary").wait_for()
