@@ -118,14 +118,6 @@ export function undoCorner(): void {
   drawn.value = corners.length > 0 ? { ...now, corners } : null;
 }
 
-/** Move a corner of the outline that is being drawn. */
-export function moveCorner(index: number, { x, y }: Point): void {
-  const now = drawn.value;
-  if (!now) return;
-  const corners = now.corners.map((old, at) => (at === index ? rounded([x, y]) : old));
-  drawn.value = { ...now, corners };
-}
-
 const nothing = (): Marks | null => {
   const map = grid.value?.map_id;
   return map ? { version: 1, map_id: map, keep_outs: [], speed_zones: [] } : null;
