@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from planner.brain import Brain, OfflineBrain
@@ -339,6 +340,11 @@ class FakeEyes:
         return gone
 
 
+_FOLDER = TemporaryDirectory(prefix="pons-fakes-")
+HOME = Path(_FOLDER.name)
+"""A home of this process alone: what is written there, no other run reads."""
+
+
 @cache
 def two_room() -> Site:
     """Read the site once: it is frozen, and two hundred tests begin with it."""
@@ -368,15 +374,15 @@ class FakeServices:
         self.speaker = FakeSpeech()
         self.voice = VoiceAbilities()
         self.budget = FakeBudget()
-        self.history = GoalHistory(Path("/nowhere/missions.db"))
+        self.history = GoalHistory.in_home(HOME)
         self.replies = ReplyCollector(0)
         self.eyes = FakeEyes()
         self.brain: Brain = OfflineBrain()
         self.site = two_room()
         self.memory = KnownPlaces(self.site)
-        self.recollection = Recollection(MemoryStore(StateDatabase(Path("/nowhere"))))
-        self.people = People(StateDatabase(Path("/nowhere")))
-        self.fences = FenceProposals.in_home(Path("/nowhere"))
+        self.recollection = Recollection(MemoryStore(StateDatabase(HOME)))
+        self.people = People(StateDatabase(HOME))
+        self.fences = FenceProposals.in_home(HOME)
         self.rehearser = Rehearser(
             self.memory,
             RobotDescription(),
@@ -384,4 +390,4 @@ class FakeServices:
             lambda: MissionState(self.memory.facts, status=self.robot.status),
         )
         clock = MovedClocks()
-        self.orders = standing_orders(Path("/nowhere"), clock, FakeMissions(clock, "two_room"))
+        self.orders = standing_orders(HOME, clock, FakeMissions(clock, "two_room"))
