@@ -18,8 +18,11 @@ from tests.e2e.judge import Judge, still
 from tests.e2e.polling import until
 from tests.e2e.system import ENDED, TWO_ROOM, Json, System, new_home
 from wire import Mode
+from wire.status import Action
 
 REST_LIMIT_S = 20.0
+_BEARABLE = (Action.NONE, Action.CAP)
+"""A base without a gyro is never free of a row that caps it."""
 ARM_LIMIT_S = 8.0
 REFUSED = 3
 """How ``pons arm`` ends when the bridge refuses, and says why."""
@@ -81,7 +84,11 @@ class Robot:
             self.system.operate("arm")
         elif status.held is not None:
             self.system.operate("resume")
-        elif status.mode is Mode.HOLD and status.owner is not None and not status.rows:
+        elif (
+            status.mode is Mode.HOLD
+            and status.owner is not None
+            and all(row.action in _BEARABLE for row in status.rows)
+        ):
             return self.system.http("GET", "/readyz").status == 200
         return False
 
