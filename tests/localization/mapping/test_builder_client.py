@@ -71,7 +71,8 @@ def builder_pid() -> int:
     names = [
         child.pid
         for child in psutil.Process().children(recursive=True)
-        if any("builder_process" in word for word in child.cmdline())
+        if child.status() != psutil.STATUS_ZOMBIE
+        and any("builder_process" in word for word in child.cmdline())
     ]
     assert len(names) == 1
     return names[0]
