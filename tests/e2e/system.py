@@ -137,12 +137,14 @@ class System(PonsUp):
 
     # Requests -----------------------------------------------------------------------------------
 
-    def pons(self, *words: str, timeout_s: float = 100.0) -> subprocess.CompletedProcess[str]:
-        """Run a ``pons`` command as a person in a shell."""
+    def pons(
+        self, *words: str, timeout_s: float = 100.0, chinese: bool = False
+    ) -> subprocess.CompletedProcess[str]:
+        """Run a ``pons`` command as a person in a shell, whose language is English or Chinese."""
         return subprocess.run(
             self.command(*words),
             cwd=self.folder,
-            env=self.environment,
+            env=self.environment | {"LC_ALL": "zh_CN.UTF-8" if chinese else "C.UTF-8"},
             capture_output=True,
             text=True,
             check=False,

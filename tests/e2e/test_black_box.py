@@ -83,7 +83,7 @@ def test_with_everything_killed_at_once_the_last_stop_is_still_explained(home: P
         told = robot.system.pons("why")
         assert told.returncode == 0, (told.stdout, told.stderr)
         assert "ACTIVE -> STOPPING, by stop" in told.stdout
-        assert "有人下达了停止指令" in told.stdout
+        assert "有人下达了停止指令" in robot.system.pons("why", chinese=True).stdout
         assert "pons resume" in told.stdout
         assert len(told.stdout.splitlines()) <= 24, "one screen"
         report = replay(files(home))

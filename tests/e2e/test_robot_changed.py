@@ -52,7 +52,7 @@ def test_a_bridge_with_another_robot_file_refuses_the_planner_and_says_so(system
 
     said = until(told, 10.0, "the refusal on `pons status`", system.logs)
     assert "robot.toml files that differ" in said
-    assert "请把两者都结束" in said
+    assert "请把两者都结束" in system.pons("status", chinese=True).stdout
     assert status(system)["owner"] is None, "it is refused for as long as it asks"
 
     system.kill("planner")  # the new one reads the same file

@@ -251,9 +251,7 @@ def test_a_map_that_was_said_before_becomes_a_site(
     assert made.cells.count(bytes([OCCUPIED])) == 2 * 60 + 2 * 38
     assert made.cells.count(bytes([UNKNOWN])) == 1
     assert site.run(settings, ["import", "ros2:/other", "other"]) == 3
-    refused = capsys.readouterr().err
-    assert "ros2_topic_missing" in refused
-    assert "请启动发布它的节点" in refused
+    assert "ros2_topic_missing" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("raw", [False, True], ids=["packed", "raw"])
