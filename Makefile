@@ -47,6 +47,9 @@ HOME_ROW := tests/e2e/test_home_tour.py tests/e2e/test_external_brain.py tests/e
 OWN_ROW := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_wheel.py \
   tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_stop_anywhere.py
 PAGE_ROW := tests/web
+# These go with the two shorter rows: the page's would else be as long as both.
+PAGE_BESIDE_HOME := tests/web/test_asked_first.py tests/web/test_missions.py tests/web/test_people.py tests/web/test_points.py
+PAGE_BESIDE_OWN := tests/web/test_hand.py
 STORIES = $(filter-out $(HOME_ROW) $(OWN_ROW) $(PAGE_ROW)/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 
@@ -56,9 +59,9 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" $(HOME_ROW) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(OWN_ROW) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(PAGE_ROW) $(ARGS)
+	  scripts/stories.sh -n 0 -m "e2e or home" $(HOME_ROW) $(PAGE_BESIDE_HOME) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(OWN_ROW) $(PAGE_BESIDE_OWN) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(PAGE_ROW) $(addprefix --ignore=,$(PAGE_BESIDE_HOME) $(PAGE_BESIDE_OWN)) $(ARGS)
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
 # that the others don't.
