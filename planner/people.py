@@ -11,6 +11,7 @@ import hashlib
 import re
 import secrets
 import unicodedata
+from contextvars import ContextVar
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from enum import StrEnum
@@ -54,6 +55,16 @@ class Person:
     role: Role
     since: str
     """When the token was made, in UTC as ISO 8601."""
+
+
+ASKER: ContextVar[Person | None] = ContextVar("asker", default=None)
+"""The person whose token came with the request that is served now; None for the owner's."""
+
+
+def name_asker(said: str) -> str:
+    """Return whose request is served now, for the record: the person's id, else as it says."""
+    person = ASKER.get()
+    return said if person is None else person.id
 
 
 class People:

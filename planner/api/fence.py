@@ -15,7 +15,7 @@ from fastapi import APIRouter
 
 from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
-from planner.api.schemas import Body, OperatorOrder, OperatorProof
+from planner.api.schemas import Body, OperatorOrder, OperatorProof, Source
 from planner.site.fence_check import FenceRefusal, check_fence
 from planner.site.fence_diff import fence_diff
 from planner.site.fence_store import State
@@ -32,13 +32,13 @@ class Proposal(Body):
     """Propose another fence for this site's map."""
 
     fence: FenceFile
-    source: Name = "api"
+    source: Source = "api"
 
 
 class Rejection(Body):
     """Say no to a proposal."""
 
-    source: Name = "api"
+    source: Source = "api"
 
 
 def routes(services: Services) -> APIRouter:

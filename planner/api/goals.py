@@ -10,7 +10,6 @@ from planner.api.crowd import address_of
 from planner.api.interfaces import Services
 from planner.api.listing import list_goals
 from planner.api.operator import act_behind, persons_act
-from planner.api.people import source_of
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
 from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalMove, GoalOrder, GoalReply, NewGoal
@@ -18,6 +17,7 @@ from planner.brain.model_replies import GoalReplies
 from planner.language.catalogue import say
 from planner.language.sentence import SaidSentence, parse
 from planner.mission.errors import MissionError
+from planner.people import name_asker
 from planner.plan import Goal, Language
 
 STATUS = {
@@ -68,7 +68,7 @@ class GoalIntake:
             detail = f"{length} characters; at most {MAX_GOAL_CHARACTERS} are taken"
             if not stops:
                 raise HttpProblem(422, "goal_too_long", detail)
-            await self._services.goals.stop("api")
+            await self._services.goals.stop(name_asker("api"))
             told = STOPPED_BUT_LONG.model_dump()
             raise HttpProblem(
                 422, "goal_too_long", f"{detail}; the robot was stopped", message=told
@@ -110,7 +110,7 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
                 replace=new.replace,
                 idempotency_key=idempotency_key,
                 act=act,
-                by=source_of(request, new.source),
+                by=new.source,
             )
             return goals.goal(goal_id)
         said = await door.judge(new.text, request)
@@ -121,7 +121,7 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
             replace=new.replace,
             idempotency_key=idempotency_key,
             act=act_behind(services.robot, said, new.operator),
-            by=source_of(request, new.source),
+            by=new.source,
         )
 
     @router.get("", operation_id="list_goals")
@@ -166,18 +166,18 @@ def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:
         return await goals.resume(goal_id, act=act)
 
     @router.post("/{goal_id}/confirm", operation_id="confirm_goal")
-    async def confirm(goal_id: str, request: Request, order: GoalOrder | None = None) -> Goal:
+    async def confirm(goal_id: str, order: GoalOrder | None = None) -> Goal:
         """Say yes to a plan; an operator's act."""
         said = order or GoalOrder()
         act = persons_act(services.robot, said.operator)
-        return await goals.confirm(goal_id, act=act, by=source_of(request, said.source))
+        return await goals.confirm(goal_id, act=act, by=said.source)
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: GoalReply, request: Request) -> Goal:
         """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
         said = await door.judge(reply.text, request)
         act = act_behind(services.robot, said, reply.operator)
-        return await goals.answer(goal_id, reply.text, act=act, by=source_of(request, reply.source))
+        return await goals.answer(goal_id, reply.text, act=act, by=reply.source)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")
     async def move(goal_id: str, where: GoalMove) -> Goal:

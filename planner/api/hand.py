@@ -29,6 +29,7 @@ from planner.api import problems
 from planner.api.access import SUBPROTOCOL
 from planner.api.interfaces import Services
 from planner.api.schemas import Body
+from planner.people import ASKER
 from wire.bounded_types import Count
 
 if TYPE_CHECKING:
@@ -198,9 +199,8 @@ class _Stick:
     def __init__(self, services: Services, socket: WebSocket) -> None:
         self.source = f"page-{secrets.token_hex(6)}"
         self._robot, self._socket = services.robot, socket
-        person = socket.scope.get("state", {}).get("person")
-        self._hand, self._name = Hand(), "" if person is None else person.name
-        self._is_known = person is not None
+        self._person = ASKER.get()
+        self._hand, self._name = Hand(), "" if self._person is None else self._person.name
 
     async def attend(self) -> None:
         """Run until either side ends it; then the stick is let go at once."""
@@ -255,7 +255,7 @@ class _Stick:
     def _hear(self, content: dict[str, Any]) -> None:
         if "name" in content:
             said = HandName.model_validate(content).name.strip()
-            self._name = self._name if self._is_known else said
+            self._name = said if self._person is None else self._person.name
             return
         frame = HandFrame.model_validate(content)
         taken = is_taken(self._robot, self.source)

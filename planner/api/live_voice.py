@@ -19,7 +19,7 @@ from fastapi import APIRouter, WebSocket, WebSocketDisconnect
 from planner.api.access import SUBPROTOCOL
 from planner.api.crowd import address_of
 from planner.api.interfaces import Services
-from planner.api.people import source_of
+from planner.people import name_asker
 from planner.voice import Recognition, Sound, StopListener, VoiceFailure
 
 if TYPE_CHECKING:
@@ -136,7 +136,7 @@ async def _first_stop(
 
 
 async def _obey(services: Services, socket: WebSocket, stop: Recognition) -> None:
-    stopped = await services.goals.stop(source_of(socket, "voice"))
+    stopped = await services.goals.stop(name_asker("voice"))
     log.info("stopped by voice, in the middle of a recording")
     told = {"transcript": stop.transcript, "recogniser": stop.by, "confirmed": stopped.is_echoed}
     await socket.send_text(json.dumps({"type": "stopped", **told}, ensure_ascii=False))

@@ -13,12 +13,11 @@ from pydantic import Field, model_validator
 from planner.api.interfaces import Services
 from planner.api.places import Point
 from planner.api.problems import HttpProblem, unknown_place
-from planner.api.schemas import Body, law_broken
+from planner.api.schemas import Body, Source, law_broken
 from planner.language.catalogue import say
 from planner.site import Place
 from planner.site.places import normalise
 from planner.site.pose_hint import hint_at, hint_in
-from wire.bounded_types import Name
 
 if TYPE_CHECKING:
     from wire import LocalizerStatus
@@ -41,7 +40,7 @@ class HereHint(Body):
 
     point: Point | None = None
     place: Annotated[str, Field(min_length=1, max_length=200)] | None = None
-    source: Name = "api"
+    source: Source = "api"
 
     @model_validator(mode="after")
     def _one_of_both(self) -> HereHint:

@@ -9,12 +9,11 @@ from fastapi import APIRouter, Path, Query
 from pydantic import Field
 
 from planner.api.problems import HttpProblem, unknown_place
-from planner.api.schemas import Body
+from planner.api.schemas import Body, Source
 from planner.language.catalogue import say
 from planner.language.object_names import name_object
 from planner.memory import FACT, KINDS, FactRefusal, MemoryQuery
 from planner.plan import PlaceId
-from wire.bounded_types import Name
 
 if TYPE_CHECKING:
     from planner.api.interfaces import Services
@@ -35,7 +34,7 @@ class NewFact(Body):
     text: Annotated[str, Field(max_length=MAX_BODY_FACT)]
     place: PlaceId | None = None
     """A room or place that it speaks of."""
-    source: Name = "api"
+    source: Source = "api"
     """What the client calls itself. Kept behind ``api:``, for by which door a fact came is not a
     client's to say."""
 

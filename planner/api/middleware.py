@@ -17,6 +17,7 @@ from starlette.exceptions import HTTPException
 from planner.api.access import Access, AccessError
 from planner.api.crowd import address_of
 from planner.api.problems import response
+from planner.people import ASKER
 from planner.voice import MAX_BYTES
 
 if TYPE_CHECKING:
@@ -86,8 +87,8 @@ class Guard:
                 await self._guesses.slow(scope.get("client"))
             await _refuse(refusal, scope, receive, send)
             return
-        person = self._access.person(headers, websocket=websocket)
-        scope["state"] = {**scope.get("state", {}), "role": role, "person": person}
+        scope["state"] = {**scope.get("state", {}), "role": role}
+        ASKER.set(self._access.person(headers, websocket=websocket))
         if websocket:
             await self._app(scope, receive, send)
         else:

@@ -19,7 +19,6 @@ from starlette.requests import ClientDisconnect, Request
 
 from planner.api.hand import is_taken
 from planner.api.interfaces import Robot, Services
-from planner.api.people import source_of
 from planner.api.problems import HttpProblem
 from planner.api.schemas import OperatorOrder, OperatorProof, Steer, StopOrder
 from planner.language.sentence import SaidSentence
@@ -49,40 +48,40 @@ def _stopping(services: Services) -> APIRouter:
     robot = services.robot
 
     @router.post("/stop", operation_id="stop")
-    async def stop(request: Request, order: StopOrder | None = None) -> dict[str, Any]:
+    async def stop(order: StopOrder | None = None) -> dict[str, Any]:
         """Stop now and hold until a person acts. Never refused."""
-        stopped = await services.goals.stop(source_of(request, (order or StopOrder()).source))
+        stopped = await services.goals.stop((order or StopOrder()).source)
         status = robot.status
         return {"confirmed": stopped.is_echoed, "mode": status.mode if status else None}
 
     @router.post("/estop", operation_id="estop")
-    async def estop(request: Request, order: OperatorOrder | None = None) -> Answer:
+    async def estop(order: OperatorOrder | None = None) -> Answer:
         """Make a protective stop, latched until reset."""
-        return await act(robot, "estop", order, by=request)
+        return await act(robot, "estop", order)
 
     @router.post("/disarm", operation_id="disarm")
-    async def disarm(request: Request, order: OperatorOrder | None = None) -> Answer:
+    async def disarm(order: OperatorOrder | None = None) -> Answer:
         """Ramp to zero, then take the torque away."""
-        return await act(robot, "disarm", order, by=request)
+        return await act(robot, "disarm", order)
 
     return router
 
 
 def _powering(router: APIRouter, robot: Robot) -> None:
     @router.post("/arm", operation_id="arm")
-    async def arm(request: Request, order: OperatorOrder | None = None) -> Answer:
+    async def arm(order: OperatorOrder | None = None) -> Answer:
         """Power the drive, standing."""
-        return await act(robot, "arm", order, by=request)
+        return await act(robot, "arm", order)
 
     @router.post("/reset", operation_id="reset")
-    async def reset(request: Request, order: OperatorOrder | None = None) -> Answer:
+    async def reset(order: OperatorOrder | None = None) -> Answer:
         """Leave a latched state; never moves the robot."""
-        return await act(robot, "reset", order, by=request)
+        return await act(robot, "reset", order)
 
     @router.post("/resume", operation_id="resume")
-    async def resume(request: Request, order: OperatorOrder | None = None) -> Answer:
+    async def resume(order: OperatorOrder | None = None) -> Answer:
         """Clear the hold of a stop, a take-over or a restart."""
-        return await act(robot, "resume", order, by=request)
+        return await act(robot, "resume", order)
 
     @router.post("/teleop", operation_id="teleop", status_code=202)
     async def teleop(steer: Steer, request: Request) -> dict[str, Any]:
@@ -91,11 +90,10 @@ def _powering(router: APIRouter, robot: Robot) -> None:
         Raises:
             HttpProblem: ``hand_taken`` where another hand steers.
         """
-        source = source_of(request, steer.source)
-        hand = hand_at(source, request.client.host if request.client else "")
+        hand = hand_at(steer.source, request.client.host if request.client else "")
         if steer.dead_man and is_taken(robot, hand):
             raise HttpProblem(409, "hand_taken", "another hand steers the robot now")
-        robot.steer(hand, steer.v_mps, steer.w_radps, dead_man=steer.dead_man, name=source)
+        robot.steer(hand, steer.v_mps, steer.w_radps, dead_man=steer.dead_man, name=steer.source)
         return {"mode": robot.status.mode if robot.status else None}
 
 
@@ -104,15 +102,14 @@ def hand_at(source: str, address: str) -> str:
     return f"{source}:{re.sub(r'[^A-Za-z0-9_.:-]', '-', address)}"[:64]
 
 
-async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None, *, by: Request) -> Answer:
-    """Ask the bridge in the name of who asked, and return its verdict.
+async def act(robot: Robot, kind: OpKind, order: OperatorOrder | None) -> Answer:
+    """Ask the bridge and return its verdict.
 
     Raises:
         HttpProblem: ``bridge_silent``, ``operator_proof_needed`` or the bridge's own refusal code.
     """
     asked = order or OperatorOrder()
-    source = source_of(by, asked.source)
-    answer = await robot.ask(kind, request(robot, kind, source, asked.operator))
+    answer = await robot.ask(kind, request(robot, kind, asked.source, asked.operator))
     if answer is None:
         raise HttpProblem(503, "bridge_silent", f"the bridge did not answer {kind} within 2 s")
     if not answer.accepted:

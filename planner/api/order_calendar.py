@@ -9,13 +9,12 @@ from fastapi import APIRouter, Response
 from pydantic import Field
 
 from planner.api.order_problems import problem
-from planner.api.schemas import Body
+from planner.api.schemas import Body, Source
 from planner.orders.calendar_import import ImportedEntry, keep_proposed, propose
 from planner.orders.calendar_orders import write_orders
 from planner.orders.calendar_text import MOST_CHARACTERS
 from planner.orders.errors import OrderRefusal
 from planner.orders.telling import tell_record, tell_rule
-from wire.bounded_types import Name
 
 if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
@@ -30,7 +29,7 @@ class CalendarFile(Body):
     """The text of an iCalendar file."""
     agreed: Annotated[str, Field(min_length=32, max_length=32)] | None = None
     """The ``agree`` of the answer that told them: a person's yes to just these."""
-    source: Name = "api"
+    source: Source = "api"
 
 
 def add_routes(router: APIRouter, orders: StandingOrders) -> None:

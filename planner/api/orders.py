@@ -18,7 +18,7 @@ from planner.api.order_calendar import add_routes
 from planner.api.order_problems import problem
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
-from planner.api.schemas import Body, law_broken
+from planner.api.schemas import Body, Source, law_broken
 from planner.language.sentence import language_of
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
@@ -38,7 +38,6 @@ from planner.plan.timing import (
     WorldEvent,
 )
 from planner.state_database import StateUnavailable
-from wire.bounded_types import Name
 
 if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
@@ -99,7 +98,7 @@ class NewStandingOrder(Body):
     reminder: Annotated[str, Field(max_length=MAX_SENT)] | None = None
     """With ``when``, in place of ``text``: the words to be reminded of."""
     language: Language | None = None
-    source: Name = "api"
+    source: Source = "api"
 
     @model_validator(mode="after")
     def _one_deed(self) -> NewStandingOrder:

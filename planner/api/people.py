@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter
 from pydantic import Field
-from starlette.requests import HTTPConnection, Request
+from starlette.requests import Request
 
 from planner.api.problems import HttpProblem
 from planner.api.schemas import Body
-from planner.people import PeopleError, Person, Role
+from planner.people import ASKER, PeopleError, Person, Role
 
 if TYPE_CHECKING:
     from planner.api.interfaces import Services
@@ -34,7 +34,7 @@ def routes(services: Services) -> APIRouter:
     @router.get("", operation_id="list_people")
     async def several(request: Request) -> dict[str, Any]:
         """Tell who asks, and to the owner who may use the robot; no token is told again."""
-        asker = request.state.person
+        asker = ASKER.get()
         is_owner = asker is None and request.state.role is Role.OPERATOR
         return {
             "you": None if asker is None else _view(asker),
@@ -59,12 +59,6 @@ def routes(services: Services) -> APIRouter:
             raise _problem(refused) from None
 
     return router
-
-
-def source_of(request: HTTPConnection, said: str) -> str:
-    """Return whose request this is, for the record: the person of its token, else as it says."""
-    person: Person | None = request.scope.get("state", {}).get("person")
-    return said if person is None else person.id
 
 
 def _view(person: Person) -> dict[str, Any]:

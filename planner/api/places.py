@@ -10,12 +10,11 @@ from pydantic import ConfigDict, Field, model_validator
 from maps.room_proposals import RoomProposal
 from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
-from planner.api.schemas import Body, law_broken
+from planner.api.schemas import Body, Source, law_broken
 from planner.language.catalogue import say
 from planner.site import MAX_HERE, PlaceRefusal, TaughtPlace
 from planner.site.known_places import KeptPlace, KnownPlaces, Lesson
 from wire import Pose2
-from wire.bounded_types import Name
 from wire.geometry import Metres, Yaw
 
 _STATUS = {
@@ -60,7 +59,7 @@ class NewPlace(Body):
     name: PlaceNames
     point: Point | None = None
     room: Annotated[str, Field(min_length=1, max_length=40)] | None = None
-    source: Name = "api"
+    source: Source = "api"
 
     @model_validator(mode="after")
     def _one_spot(self) -> NewPlace:

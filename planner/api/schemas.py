@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictBool, model_validator
 
 from maps.errors import BilingualError
 from planner.language.catalogue import say
+from planner.people import name_asker
 from planner.plan import GoToPose, Language
 from wire import Proof, TrialAct
 from wire.bounded_types import Count, Fingerprint, Name
@@ -32,6 +33,8 @@ class OperatorProof(Body):
     proof: Proof
 
 
+Source = Annotated[Name, AfterValidator(name_asker), Field(validate_default=True)]
+"""Names the asker, for the record; a person with a token of their own, whatever is said."""
 Text = Annotated[
     str,
     Field(
@@ -61,7 +64,7 @@ class NewGoal(Body):
     """Give a goal in words, or by points of the map, in a row."""
 
     text: Text | None = None
-    source: Name = "api"
+    source: Source = "api"
     """The door that it comes through (``page``, ``cli``): shown beside the goal."""
     points: Annotated[tuple[GoalPoint, ...], Field(min_length=1, max_length=20)] | None = None
     map_id: Fingerprint | None = None
@@ -94,7 +97,7 @@ class NewGoal(Body):
 class GoalOrder(Body):
     """Act on a goal; resuming may carry a proof."""
 
-    source: Name = "api"
+    source: Source = "api"
     operator: OperatorProof | None = None
 
 
@@ -102,7 +105,7 @@ class GoalReply(Body):
     """Answer a goal's question."""
 
     text: Text
-    source: Name = "api"
+    source: Source = "api"
     operator: OperatorProof | None = None
 
 
@@ -115,20 +118,20 @@ class GoalMove(Body):
 class StopOrder(Body):
     """Stop now; ``source`` names the asker, for the record."""
 
-    source: Name = "api"
+    source: Source = "api"
 
 
 class OperatorOrder(Body):
     """Arm, disarm, protective stop, reset or resume."""
 
-    source: Name = "api"
+    source: Source = "api"
     operator: OperatorProof | None = None
 
 
 class Steer(Body):
     """Steer by hand while ``dead_man`` is held; send at 20 Hz."""
 
-    source: Name
+    source: Source
     v_mps: Annotated[Mps, Field(strict=True)]
     w_radps: Annotated[Radps, Field(strict=True)]
     dead_man: StrictBool
@@ -137,7 +140,7 @@ class Steer(Body):
 class SetupAsk(Body):
     """Ask for set-up in the bridge's place."""
 
-    source: Name = "api"
+    source: Source = "api"
 
 
 class TrialAsk(Body):
@@ -146,7 +149,7 @@ class TrialAsk(Body):
     act: TrialAct
     id: Name
     """Of this request; of a watch: that of its begin, which the proof of that covers."""
-    source: Name = "api"
+    source: Source = "api"
     answered: Count = 0
     """Of a watch: the number of the newest question whose answer is "done"."""
     proof: Proof | None = None

@@ -10,11 +10,11 @@ from pydantic import BaseModel, ConfigDict
 from planner.api.goals import IdempotencyKey
 from planner.api.interfaces import Services
 from planner.api.operator import act_behind
-from planner.api.people import source_of
 from planner.api.problems import HttpProblem
 from planner.language.catalogue import say
 from planner.language.sentence import parse
 from planner.language.stop import StopReading
+from planner.people import name_asker
 from planner.plan import Bilingual, Goal, Language
 from planner.voice import (
     STOP_DOUBT,
@@ -105,7 +105,7 @@ def routes(services: Services) -> APIRouter:
             replace=replace,
             idempotency_key=idempotency_key,
             act=act_behind(services.robot, parse(text), None),
-            by=source_of(request, "voice"),
+            by=name_asker("voice"),
         )
         outcome = SpokenOutcome(code="heard")
         return VoiceResult(**_facts(heard), understood=text, goal=goal, outcome=outcome)

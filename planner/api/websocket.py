@@ -23,10 +23,10 @@ from planner.api.interfaces import Services
 from planner.api.listing import list_goals
 from planner.api.live_state import Body, Feed, Listener, text_of
 from planner.api.objects import sight_view
-from planner.api.people import source_of
 from planner.api.rates import Rate
 from planner.api.robot import about, obstacle_view, path_view, robot_view, scan_view
 from planner.api.usage import usage_view
+from planner.people import name_asker
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Mapping
@@ -191,7 +191,7 @@ async def _listen(
             return
         order = _order(message)
         if order.get("stop") is True:
-            stopped = await services.goals.stop(source_of(socket, "page"))
+            stopped = await services.goals.stop(name_asker("page"))
             await sender.send("stopped", {"confirmed": stopped.is_echoed})
         elif not rate.take(time.monotonic()):
             detail = f"at most {AT_ONCE} messages at once, then {A_SECOND:g} a second"

@@ -7,10 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from pydantic import AfterValidator
 from starlette.testclient import TestClient
 
 from planner.api import Access, build
-from planner.people import People
+from planner.api.schemas import Body, StopOrder
+from planner.people import ASKER, People, Person, Role
 from planner.state_database import StateDatabase
 from tests.planner.api.fakes import FakeServices
 
@@ -108,3 +110,27 @@ def test_from_here_without_any_token_the_owner_asks(services: FakeServices) -> N
     ana = {"authorization": f"Bearer {made['token']}"}
     assert client.get("/v1/people", headers=ana).json()["people"] is None
     assert len(client.get("/v1/people").json()["people"]) == 1
+
+
+def test_every_body_that_names_its_asker_names_a_person_by_the_token() -> None:
+    bodies = {each for each in descendants(Body) if "source" in each.model_fields}
+    assert {"StopOrder", "NewGoal", "Marking", "Proposal", "NewPlace"} <= {
+        b.__name__ for b in bodies
+    }
+    for body in bodies:
+        checks = body.model_fields["source"].metadata
+        assert any(isinstance(each, AfterValidator) for each in checks), body
+
+
+def descendants(of: type[Body]) -> set[type[Body]]:
+    return {each for child in of.__subclasses__() for each in (child, *descendants(child))}
+
+
+def test_a_body_is_its_persons_only_while_their_request_is_served() -> None:
+    ana = Person("ana", "Ana", Role.OPERATOR, "2026-01-01T00:00:00+00:00")
+    token = ASKER.set(ana)
+    try:
+        assert {StopOrder().source, StopOrder(source="page").source} == {"ana"}
+    finally:
+        ASKER.reset(token)
+    assert (StopOrder().source, StopOrder(source="page").source) == ("api", "page")
