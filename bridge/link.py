@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
     from bridge.core.decision import Decision
     from bridge.core.inbox import FenceDone
-    from wire import Imu, OpKind
+    from wire import FenceRequest, Imu, MarksRequest, OpKind
     from wire.keys import Key
     from wire.session import Session, Subscriber
 
@@ -172,27 +172,31 @@ class BridgeLink:
         return (*halts, *others)
 
     def _fences(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
-        """Take requests for another fence; an unproven one's text goes no further."""
-        arrived = []
-        for request in took.take_all(FENCE, self._fence):
-            fits = authentic_fence(self._operator_key, self._robot_id, request)
-            nonce = request.proof.nonce if request.proof is not None else None
-            text = request.fence if fits else ""
-            arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
-        return tuple(arrived)
+        """Take requests for another fence."""
+        return tuple(
+            _arrival(
+                each, each.fence, fits=authentic_fence(self._operator_key, self._robot_id, each)
+            )
+            for each in took.take_all(FENCE, self._fence)
+        )
 
     def _marks_of(self, took: _TickDrain) -> tuple[FenceArrival, ...]:
-        """Take requests for other marks; an unproven one's text goes no further."""
-        arrived = []
-        for request in took.take_all(MARKS, self._marks):
-            fits = authentic_marks(self._operator_key, self._robot_id, request)
-            nonce = request.proof.nonce if request.proof is not None else None
-            text = request.marks if fits else ""
-            arrived.append(FenceArrival(request.id, request.source, nonce, fits, text))
-        return tuple(arrived)
+        """Take requests for other marks."""
+        return tuple(
+            _arrival(
+                each, each.marks, fits=authentic_marks(self._operator_key, self._robot_id, each)
+            )
+            for each in took.take_all(MARKS, self._marks)
+        )
 
     def _authentic(self, kind: OpKind, request: OpRequest) -> bool:
         return authentic(self._operator_key, kind, self._robot_id, request.proof, request.id)
+
+
+def _arrival(request: FenceRequest | MarksRequest, text: str, *, fits: bool) -> FenceArrival:
+    """Return what arrived; the text of a request whose proof does not fit goes no further."""
+    nonce = request.proof.nonce if request.proof is not None else None
+    return FenceArrival(request.id, request.source, nonce, fits, text if fits else "")
 
 
 class _TickDrain:

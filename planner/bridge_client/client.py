@@ -229,10 +229,7 @@ class Link:
         Raises:
             BridgeSilent: it was not echoed within 2 s.
         """
-        answer = await self._until_echoed(request.id, lambda: self._bus.send(request))
-        if answer is None:
-            raise BridgeSilent("fence", ECHO_S)
-        return answer
+        return await self._offer(request, "fence")
 
     async def offer_marks(self, request: MarksRequest) -> Answer:
         """Bring an operator's marks to the bridge and return its verdict.
@@ -240,9 +237,12 @@ class Link:
         Raises:
             BridgeSilent: it was not echoed within 2 s.
         """
+        return await self._offer(request, "marks")
+
+    async def _offer(self, request: FenceRequest | MarksRequest, kind: str) -> Answer:
         answer = await self._until_echoed(request.id, lambda: self._bus.send(request))
         if answer is None:
-            raise BridgeSilent("marks", ECHO_S)
+            raise BridgeSilent(kind, ECHO_S)
         return answer
 
     async def hint(self, hint: PoseHint) -> HintVerdict | None:
