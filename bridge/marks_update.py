@@ -86,11 +86,11 @@ def read_marks(text: str, map_id: str, name: str = "the marks sent") -> MarksFil
     return marks
 
 
-def prepare(paper: Paper, asked: PendingMarks) -> FenceDone:
-    """Prepare the fence less these marks, and write them down."""
+def prepare(paper: Paper, asked: PendingMarks, in_force: str = "") -> FenceDone:
+    """Prepare the fence less these marks, and write them down; those in force stay prepared."""
     try:
         marks = read_marks(asked.text, paper.map_id)
-        if paper.fence is None or not paper.fence.with_marks(asked.text).boundary:
+        if paper.fence is None or not paper.fence.with_marks(asked.text, in_force).boundary:
             text = f"{len(marks.keep_outs)} outlines cover all that is allowed"
             raise ConfigError("marks_leave_nothing", text)
         replace_file(paper.path, asked.text.encode())
@@ -146,7 +146,7 @@ class MarksDesk:
     def _run(self) -> None:
         while (asked := self._queue.get()) is not None:
             if isinstance(asked, PendingMarks):
-                self._done.put(prepare(self._paper, asked))
+                self._done.put(prepare(self._paper, asked, self._noted.text))
                 continue
             try:
                 replace_file(self._paper.path, asked.encode())

@@ -228,10 +228,14 @@ class FenceGrid:
             found.append((gap_m, shape.zone.max_speed_mps))
         return found
 
-    def with_marks(self, text: str) -> FenceGrid:
+    def with_marks(self, text: str, kept: str = "") -> FenceGrid:
         """Return this fence less what people drew on the map, by its text; no text, no change.
 
         Prepared once: the thread that reads marks asks first, so that no tick waits for it.
+
+        Args:
+            text: the marks.
+            kept: the marks in force, which stay prepared however many others are asked for.
         """
         found = self.marked.get(text)
         if found is None:
@@ -240,7 +244,7 @@ class FenceGrid:
             keep_outs = (*self.keep_outs, *marks.keep_outs)
             found = build_fence(self.map_id, self.allowed, keep_outs, (*self.zones, *drawn))
             while len(self.marked) >= _MARKED_KEPT:
-                self.marked.pop(next(iter(self.marked)))
+                self.marked.pop(next(each for each in self.marked if each != kept))
             self.marked[text] = found
         return found
 

@@ -220,6 +220,9 @@ def test_marks_take_away_from_a_fence_and_are_prepared_once() -> None:
     assert marked.zones_near(3.9, 3.9) == []
     assert fence.with_marks(text(1.0)) is marked
     for step in range(20):
-        fence.with_marks(text(1.0 + 0.01 * step))
+        fence.with_marks(text(1.0 + 0.01 * step), kept=text(1.0))
     assert len(fence.marked) <= 8
+    assert fence.with_marks(text(1.0)) is marked, "what is in force is never prepared in a tick"
+    for step in range(20):
+        fence.with_marks(text(1.0 + 0.01 * step))
     assert fence.with_marks(text(1.0)) == marked
