@@ -21,6 +21,7 @@ from planner.api.connections import protocol
 from planner.app import Planner, PlannerPaths, application
 from planner.orders.zone import set_local_zone
 from processes.priority import add_nice
+from processes.standby import Standby
 from wire import EXIT_SET_UP, ConfigError
 
 if TYPE_CHECKING:
@@ -142,4 +143,4 @@ def _read_names(name: str) -> set[str]:
 
 if __name__ == "__main__":
     add_nice(NICE)  # before any thread, so that all have it; never in who only calls main
-    sys.exit(main())
+    sys.exit(Standby(main).run())

@@ -14,6 +14,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Self
 
 from pons.supervisor import Child
+from processes.standby import find_server
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -91,7 +92,7 @@ class RobotProcesses:
         self._stack.close()
 
     def pid(self, name: str) -> int:
-        """Return a process's id.
+        """Return the id of the process that serves.
 
         Raises:
             ProcessGone: it does not run.
@@ -99,7 +100,7 @@ class RobotProcesses:
         child = self.children[name]
         if child.process is None or child.process.poll() is not None:
             raise ProcessGone(f"{name} does not run; its log ends:\n{child.last_words()}")
-        return child.process.pid
+        return find_server(child.process.pid)
 
     def find_ended(self) -> Child | None:
         """Return a process that was started and runs no more, if there is one."""

@@ -20,6 +20,7 @@ from typing import Any
 import psutil
 
 from processes.parent_death import module_in
+from processes.standby import find_server
 from tests.e2e.polling import until
 from tests.e2e.pons_up import PonsUp
 
@@ -91,7 +92,7 @@ class System(PonsUp):
         for process in psutil.Process(self.up.pid).children():
             with contextlib.suppress(psutil.NoSuchProcess, IndexError):
                 if module_in(process.cmdline()) == name:
-                    return process
+                    return psutil.Process(find_server(process.pid))
         return None
 
     def kill(self, name: str) -> float:
