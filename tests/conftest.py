@@ -20,6 +20,7 @@ from tests.contact import Contacts
 
 ROOT = Path(__file__).resolve().parents[1]
 CHILD_GRACE_S = 5.0
+os.environ["LC_ALL"] = "C.UTF-8"  # what a command says, here and in each child, is told in English
 SELDOM = (100_000, 50, 100)
 """Allocations between two looks for garbage, and how many looks between deeper ones."""
 
