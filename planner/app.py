@@ -147,6 +147,7 @@ class Planner:
 
     def _begin_memory(self) -> None:
         """Let what the eyes see and what people tell be remembered."""
+        self.goals.find_keys_by(self.history.find_key)
         limits = MemoryLimits(**self.settings.memory.model_dump())
         self.recollection = Recollection(MemoryStore(self._state, limits))
         self.recorder = SightingRecorder(

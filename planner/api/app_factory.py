@@ -9,6 +9,7 @@ from starlette.responses import JSONResponse
 
 from planner.api import (
     camera,
+    capabilities,
     error_schema,
     fence,
     goals,
@@ -48,9 +49,9 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, rehearsals, voice, live_voice, operator, hand, setup, robot, orders, places,
-    localization, objects, memory, pictures, camera, fence, marks, people, usage, history, health,
-    websocket,
+    goals, rehearsals, voice, live_voice, operator, hand, setup, robot, capabilities, orders,
+    places, localization, objects, memory, pictures, camera, fence, marks, people, usage,
+    history, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

@@ -16,7 +16,8 @@ from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalMove, GoalOrder, GoalRe
 from planner.brain.model_replies import GoalReplies
 from planner.language.catalogue import say
 from planner.language.sentence import SaidSentence, parse
-from planner.mission.errors import MissionError
+from planner.mission.api_view import recorded_goal
+from planner.mission.errors import MissionError, UnknownGoal
 from planner.people import name_asker
 from planner.plan import Goal, Language
 
@@ -36,6 +37,9 @@ STOPPED_BUT_LONG = say("problem.stopped_but_long")
 
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", max_length=200)]
 Limit = Annotated[int, Query(ge=1, le=200)]
+Cursor = Annotated[int | None, Query(ge=0, le=2**53)]
+MOST_CHANGED = 30
+"""Goals of one list of changes: none of so many is left out for its size."""
 
 
 def routes(services: Services) -> APIRouter:
@@ -112,30 +116,41 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
                 act=act,
                 by=new.source,
             )
-            return goals.goal(goal_id)
+            return await find_goal(services, goal_id, repeats=True)
         said = await door.judge(new.text, request)
-        return await goals.submit(
-            new.text,
-            language=new.language,
-            confirm=new.confirm,
-            replace=new.replace,
-            idempotency_key=idempotency_key,
-            act=act_behind(services.robot, said, new.operator),
-            by=new.source,
-        )
+        try:
+            return await goals.submit(
+                new.text,
+                language=new.language,
+                confirm=new.confirm,
+                replace=new.replace,
+                idempotency_key=idempotency_key,
+                act=act_behind(services.robot, said, new.operator),
+                by=new.source,
+            )
+        except UnknownGoal as former:
+            return await find_goal(services, former.goal_id, repeats=True)
 
     @router.get("", operation_id="list_goals")
-    async def several(limit: Limit = 50) -> dict[str, Any]:
+    async def several(limit: Limit = 50, after: Cursor = None) -> dict[str, Any]:
         """List goals: those that are open first, then those that ended, each newest first.
 
-        Long texts are shortened, and what would make more than 0.9 MB is left out.
+        With ``after`` those that changed since, each once, the change of longest ago first, and
+        ``next``, where the next list goes on; 0 begins with the oldest of 10 000. Long texts are
+        shortened, and what would make more than 0.9 MB is left out.
         """
-        return {"goals": list_goals(goals.goals(limit))}
+        if after is None:
+            return {"goals": list_goals(goals.goals(limit))}
+        changed = await services.history.changed_since(after, min(limit, MOST_CHANGED))
+        return {
+            "goals": list_goals(recorded_goal(mission) for mission in changed.missions),
+            "next": changed.cursor,
+        }
 
     @router.get("/{goal_id}", operation_id="get_goal")
     async def one(goal_id: str) -> Goal:
-        """Show one goal whole."""
-        return goals.goal(goal_id)
+        """Show one goal whole, however old."""
+        return await find_goal(services, goal_id)
 
     @router.get("/{goal_id}/replies", operation_id="list_goal_replies")
     async def replies(goal_id: str) -> GoalReplies:
@@ -183,6 +198,30 @@ def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:
     async def move(goal_id: str, where: GoalMove) -> Goal:
         """Put a queued goal before another, or last."""
         return await goals.move(goal_id, where.before)
+
+
+async def find_goal(services: Services, goal_id: str, *, repeats: bool = False) -> Goal:
+    """Return a goal, with its progress while it is at hand, else as the journal has it.
+
+    Args:
+        services: of the planner.
+        goal_id: of the goal.
+        repeats: a request asks that made it once and is not to make another.
+
+    Raises:
+        UnknownGoal: there is none; HttpProblem where it ``repeats``.
+    """
+    try:
+        return services.goals.goal(goal_id)
+    except UnknownGoal:
+        pass
+    try:
+        return recorded_goal((await services.history.story(goal_id))[0])
+    except UnknownGoal:
+        if not repeats:
+            raise
+        detail = f"this key made goal {goal_id}, whose record is kept no more; nothing is done"
+        raise HttpProblem(409, "goal_forgotten", detail) from None
 
 
 def problem(error: MissionError) -> HttpProblem:

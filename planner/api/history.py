@@ -9,10 +9,9 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from planner.api.goals import Cursor, find_goal
 from planner.api.interfaces import Services
 from planner.budget import Usage
-from planner.mission.api_view import recorded_goal
-from planner.mission.errors import UnknownGoal
 from planner.mission.goal_history import GoalStory, HistoryPage, HistoryQuery
 from planner.mission.recorded_track import RecordedTrack
 from planner.plan import Frozen, Goal, GoalState
@@ -20,7 +19,6 @@ from planner.plan import Frozen, Goal, GoalState
 Limit = Annotated[int, Query(ge=1, le=200)]
 UnixTime = Annotated[float | None, Query(ge=0.0, le=1e11)]
 Words = Annotated[str | None, Query(max_length=200)]
-Cursor = Annotated[int | None, Query(ge=0, le=2**53)]
 
 
 class ToldGoal(Frozen):
@@ -55,11 +53,8 @@ def routes(services: Services) -> APIRouter:
     @router.get("/{goal_id}", operation_id="get_history")
     async def one(goal_id: str) -> ToldGoal:
         """Show one goal with who gave it, what was asked and answered, and what it cost."""
-        mission, story = await services.history.story(goal_id)
-        try:
-            goal = services.goals.goal(goal_id)  # with its progress, and its place in the queue
-        except UnknownGoal:
-            goal = recorded_goal(mission)
+        _, story = await services.history.story(goal_id)
+        goal = await find_goal(services, goal_id)
         await services.budget.look(goal_id)
         return ToldGoal(goal=goal, story=story, usage=services.budget.usage(goal_id))
 

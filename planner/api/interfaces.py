@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
     from planner.people import People
     from planner.perception import Picture, Sight, Thing
-    from planner.plan import Goal, GoToPose, Language
+    from planner.plan import Goal, GoToPose, Language, Means
     from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
@@ -89,6 +89,9 @@ class Goals(Protocol):
         act: OpRequest | None = None,
         by: str = "api",
     ) -> Goal: ...
+
+    @property
+    def means(self) -> Means: ...
 
     @property
     def obstacles(self) -> LayerSource | None: ...

@@ -33,6 +33,7 @@ _KIND = say("problem.kind")
 _EARS = say("problem.ears")
 _AGAIN = say("problem.again")
 SAYINGS = {
+    "goal_forgotten": say("problem.goal_forgotten"),
     "audio_empty": say("problem.audio_empty"),
     "audio_too_short": say("problem.audio_too_short"),
     "audio_too_long": _LENGTH,

@@ -24,7 +24,7 @@ class UnknownGoal(MissionError):
 
     def __init__(self, goal_id: str, known: tuple[str, ...]) -> None:
         newest = ", ".join(known[-5:]) or say("refusal.no_goals")
-        shown = goal_id[:64]
+        self.goal_id, shown = goal_id, goal_id[:64]
         super().__init__(shown=shown, newest=newest)
 
 

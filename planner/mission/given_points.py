@@ -70,6 +70,7 @@ class PointGoals:
         Raises:
             QueueFull, IdempotencyConflict, ReservedKey, JournalDown: as of a sentence.
         """
+        await self._repeats.look_up(idempotency_key)
         goal_id, text = self._clocks.new_id(), tell_steps(points, say_same).of(language)
         given = Submitted(goal_id, text, language, confirm, replace, points=points, by=by)
         heard = receive_points(self._loop.book, given, idempotency_key, self._repeats)

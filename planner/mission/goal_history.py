@@ -17,6 +17,7 @@ import sqlalchemy as sa
 from planner.mission.errors import UnknownGoal
 from planner.mission.journal_records import read_mission
 from planner.mission.recorded_track import TrackReader
+from planner.mission.state import GoalKey
 from planner.plan import ENDED, Frozen, GoalState, Language
 
 if TYPE_CHECKING:
@@ -86,6 +87,15 @@ class HistoryQuery:
     limit: int = 50
 
 
+@dataclass(frozen=True, slots=True)
+class ChangedGoals:
+    """Hold goals as they stand after their newest changes, the change of longest ago first."""
+
+    missions: tuple[Mission, ...]
+    cursor: int
+    """Of the last of these changes: what comes after it is new."""
+
+
 class StateChange(Frozen):
     """Show when a goal came into a state."""
 
@@ -103,7 +113,7 @@ class GoalStory(Frozen):
     map_id: str
     metres: float
     changes: tuple[StateChange, ...]
-    """Empty of a goal so old that only its last record is kept."""
+    """Of a goal so old that only its last record is kept: the last one."""
 
 
 def row_of(mission: Mission) -> dict[str, Any]:
@@ -152,6 +162,14 @@ class GoalHistory:
         """
         return await asyncio.to_thread(self._story, goal_id)
 
+    async def changed_since(self, cursor: int, limit: int) -> ChangedGoals:
+        """Return the goals that changed after a cursor, each once, at most ``limit``."""
+        return await asyncio.to_thread(self._changed_since, cursor, limit)
+
+    async def find_key(self, key: str) -> GoalKey | None:
+        """Return the request that came with a key, however long ago; None: it is a new one."""
+        return await asyncio.to_thread(self._find_key, key)
+
     def close(self) -> None:
         """Give the connections back."""
         if self._made is not None:
@@ -172,6 +190,21 @@ class GoalHistory:
             found = connection.execute(wanted.limit(query.limit + 1)).mappings().all()
         shown = tuple(_show(row) for row in found[: query.limit])
         return HistoryPage(goals=shown, next=shown[-1].order if len(found) > len(shown) else None)
+
+    def _changed_since(self, cursor: int, limit: int) -> ChangedGoals:
+        if not self._path.exists():
+            return ChangedGoals((), cursor)
+        with self._engine.connect() as connection:
+            found = connection.execute(_CHANGED, {"cursor": cursor, "limit": limit}).all()
+        missions = tuple(read_mission(record) for record, _ in found)
+        return ChangedGoals(missions, found[-1].seq if found else cursor)
+
+    def _find_key(self, key: str) -> GoalKey | None:
+        if not self._path.exists():
+            return None
+        with self._engine.connect() as connection:
+            found = connection.execute(_KEY, {"key": key}).one_or_none()
+        return GoalKey(*found) if found is not None else None
 
     def _story(self, goal_id: str) -> tuple[Mission, GoalStory]:
         if not self._path.exists():
@@ -197,6 +230,11 @@ class GoalHistory:
 
 
 _RECORD = sa.text("SELECT record FROM missions WHERE id = :goal")
+_CHANGED = sa.text(
+    "SELECT record, seq FROM missions JOIN (SELECT mission, MAX(seq) AS seq FROM transitions "
+    "WHERE seq > :cursor GROUP BY mission ORDER BY seq LIMIT :limit) ON id = mission ORDER BY seq"
+)
+_KEY = sa.text("SELECT key, body, goal FROM idempotency_keys WHERE key = :key")
 _CHANGES = sa.text("SELECT state, at_unix_s FROM transitions WHERE mission = :goal ORDER BY seq")
 
 

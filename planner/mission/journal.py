@@ -31,10 +31,14 @@ SCHEMA = "2"
 FORMER_SCHEMAS = frozenset({"1"})
 """Those that are read as well: a record stays as it was written until its goal changes."""
 MAX_KEYS = 10_000
+"""Of requests, known at once; an older key is looked up (`GoalHistory.find_key`)."""
+KEPT_KEYS = 1_000_000
+"""On disk, 0.2 kB each: a key is as good as never used again by another request."""
 MAX_KEPT = 10_000
 """Ended goals on disk; older ones are removed, open ones never."""
 KEPT_WHOLE = 2_000
-"""Of these, so many of the newest with all their transitions, which are most of the bytes."""
+"""Of these, so many of the newest with all their transitions, which are most of the bytes; of an
+older one its last, by which a reader of changes finds it."""
 PRUNE_EVERY, PRUNE_MOST = 100, 500
 """After so many goals that ended, so many are removed at most: the writer is not held up."""
 
@@ -167,20 +171,24 @@ class MissionJournal:
         kept = ended.order_by(_missions.c.order.desc()).limit(MAX_KEPT)
         oldest = ended.where(_missions.c.id.not_in(kept)).order_by(_missions.c.order)
         whole = ended.order_by(_missions.c.order.desc()).limit(KEPT_WHOLE)
-        has_more = _missions.c.id.in_(sa.select(_transitions.c.mission))
+        changed = sa.select(_transitions.c.mission).group_by(_transitions.c.mission)
+        has_more = _missions.c.id.in_(changed.having(sa.func.count() > 1))
         past = ended.where(_missions.c.id.not_in(whole), has_more).order_by(_missions.c.order)
         newest_key = sa.select(sa.func.max(_keys.c.seq)).scalar_subquery()
         try:
             with self._engine.begin() as connection:
                 gone = connection.execute(oldest.limit(PRUNE_MOST)).scalars().all()
                 shortened = connection.execute(past.limit(PRUNE_MOST)).scalars().all()
-                row = _transitions.c.mission.in_([*gone, *shortened])
-                connection.execute(sa.delete(_transitions).where(row))
+                of = _transitions.c.mission
+                connection.execute(sa.delete(_transitions).where(of.in_(gone)))
+                last = sa.select(sa.func.max(_transitions.c.seq)).where(of.in_(shortened))
+                before = _transitions.c.seq.not_in(last.group_by(of))
+                connection.execute(sa.delete(_transitions).where(of.in_(shortened), before))
                 connection.execute(
                     sa.delete(goal_history.rows).where(goal_history.rows.c.id.in_(gone))
                 )
                 connection.execute(sa.delete(_missions).where(_missions.c.id.in_(gone)))
-                connection.execute(sa.delete(_keys).where(_keys.c.seq <= newest_key - MAX_KEYS))
+                connection.execute(sa.delete(_keys).where(_keys.c.seq <= newest_key - KEPT_KEYS))
         except sa.exc.SQLAlchemyError as error:
             log.warning("the journal was not pruned: %s", str(error).splitlines()[0][:200])
 

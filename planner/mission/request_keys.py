@@ -15,7 +15,7 @@ from planner.mission.journal import MAX_KEYS
 from planner.mission.state import GoalKey
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Awaitable, Callable, Iterable
 
     from planner.mission.events import Submitted
     from planner.mission.loop import Loop
@@ -27,6 +27,16 @@ class Repeats:
     def __init__(self, kept: Iterable[GoalKey] = ()) -> None:
         """Begin with the journal's keys, oldest first."""
         self.recall(kept)
+        self.find_older: Callable[[str], Awaitable[GoalKey | None]] | None = None
+        """Looks in all that was ever kept."""
+
+    async def look_up(self, key: str | None) -> None:
+        """Take up a key that is older than those remembered, where more may be kept than these."""
+        full = len(self._keys) >= MAX_KEYS
+        if key is None or key in self._keys or self.find_older is None or not full:
+            return
+        if (older := await self.find_older(key)) is not None:
+            self.remember(older)
 
     def recall(self, kept: Iterable[GoalKey]) -> None:
         """Take up the journal's keys, oldest first."""

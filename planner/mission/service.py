@@ -56,15 +56,18 @@ from planner.mission.state import MissionState, Rules
 from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import RouteService
 from planner.perception.interfaces import Eyes
-from planner.plan import Goal, Language
+from planner.plan import Goal, Language, Means
 from planner.site import KnownPlaces, Site
 from wire import OpRequest, RobotDescription
 
 if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
     from planner.language.reading import ChangeReading
     from planner.memory import Recollection
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
+    from planner.mission.state import GoalKey
 
 
 class Missions:
@@ -106,6 +109,10 @@ class Missions:
     def remember_by(self, recollection: Recollection) -> None:
         """Answer from this memory, and keep in it what people say."""
         self._lookup.remember_by(recollection)
+
+    def find_keys_by(self, find: Callable[[str], Awaitable[GoalKey | None]]) -> None:
+        """Look keys up here that are older than those at hand."""
+        self._repeats.find_older = find
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
         """See with these eyes, and ask this model about their pictures."""
@@ -179,7 +186,10 @@ class Missions:
             QueueFull: 33 goals are open, and none of them waits for an answer alone.
             IdempotencyConflict, ReservedKey: the key is another request's, or a standing order's.
             JournalDown: it can't be written down, so it was not taken.
+            UnknownGoal: the request made a goal before that is at hand no more; the journal has it.
         """
+        if idempotency_key is not None and not self.hears_stop(text):  # a stop waits for no disk
+            await self._repeats.look_up(idempotency_key)
         said, goal_id = parse(text), self._clocks.new_id()
         spoken = language or said.language
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source, by=by)
@@ -262,6 +272,11 @@ class Missions:
         await asyncio.sleep(0)  # the first stop is on the wire before anything is written
         self.loop.event(Stopped(source))
         return await saying
+
+    @property
+    def means(self) -> Means:
+        """Return the robot's parts beyond wheels and a voice, as they are now."""
+        return self.loop.book.means
 
     @property
     def failure(self) -> BaseException | None:

@@ -30,7 +30,7 @@ from planner.navigation import (
 )
 from planner.people import People
 from planner.perception import Picture, Sight, Thing
-from planner.plan import Goal, GoalState, GoToPose, Language
+from planner.plan import Goal, GoalState, GoToPose, Language, Means
 from planner.rehearsal import Rehearser
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
@@ -88,6 +88,7 @@ class FakeGoals:
         self.stops: list[str] = []
         self.leg: Leg | None = None
         self.asks = False
+        self.means = Means(camera=True)
 
     @property
     def points(self) -> FakeGoals:

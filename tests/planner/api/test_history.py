@@ -9,10 +9,11 @@ from starlette.testclient import TestClient
 
 from planner.api import Access, build
 from planner.mission.effects import Journal
+from planner.mission.errors import UnknownGoal
 from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import MissionJournal
-from planner.plan import GoalState
-from tests.planner.api.fakes import FakeServices
+from planner.plan import Goal, GoalState
+from tests.planner.api.fakes import FakeGoals, FakeServices
 from tests.planner.mission.test_goal_history import mission
 
 
@@ -55,3 +56,44 @@ def test_a_track_is_read_by_a_process_and_empty_where_nothing_is_kept(client: Te
 )
 def test_a_malformed_question_is_refused(client: TestClient, wrong: str) -> None:
     assert client.get(f"/v1/history?{wrong}").status_code == 422
+
+
+def test_a_goal_that_is_at_hand_no_more_is_shown_by_its_id(client: TestClient) -> None:
+    assert client.get("/v1/goals/g2").json()["state"] == "failed"
+    assert client.get("/v1/goals/g9").status_code == 404
+
+
+@pytest.mark.parametrize(
+    ("made", "status", "told"), [("g2", 202, ("id", "g2")), ("g9", 409, ("code", "goal_forgotten"))]
+)
+def test_a_request_that_comes_again_makes_no_second_goal_however_old_the_first(
+    client: TestClient,
+    monkeypatch: pytest.MonkeyPatch,
+    made: str,
+    status: int,
+    told: tuple[str, str],
+) -> None:
+    async def submit(*_: object, **__: object) -> Goal:
+        raise UnknownGoal(made, ())
+
+    monkeypatch.setattr(FakeGoals, "submit", submit)
+    again = client.post("/v1/goals", json={"text": "go"}, headers={"Idempotency-Key": "k"})
+    assert (again.status_code, again.json()[told[0]]) == (status, told[1])
+
+
+def test_changes_are_listed_behind_a_cursor(client: TestClient) -> None:
+    first = client.get("/v1/goals", params={"after": 0, "limit": 1}).json()
+    rest = client.get("/v1/goals", params={"after": first["next"]}).json()
+    assert [goal["id"] for goal in (*first["goals"], *rest["goals"])] == ["g1", "g2"]
+    assert client.get("/v1/goals", params={"after": rest["next"]}).json() == {
+        "goals": [], "next": rest["next"],
+    }  # fmt: skip
+    assert client.get("/v1/goals?after=-1").status_code == 422
+
+
+def test_what_the_robot_can_do_is_told_by_itself(client: TestClient) -> None:
+    told = client.get("/v1/capabilities").json()
+    assert {"go_to", "say"} <= set(told["steps"])
+    assert "go_to_pose" not in told["steps"]
+    assert [place["id"] for place in told["places"]]
+    assert (told["languages"], told["camera"]) == (["en", "zh"], "sim")

@@ -102,3 +102,28 @@ def test_a_former_programs_goals_are_listed_as_well(tmp_path: Path) -> None:
     with sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}").begin() as connection:
         goal_history.meta.drop_all(connection)
     assert [goal.id for goal in found(written(tmp_path), HistoryQuery()).goals] == ["g1"]
+
+
+def test_each_goal_that_changed_comes_once_as_it_stands_behind_its_cursor(tmp_path: Path) -> None:
+    history = written(
+        tmp_path,
+        mission(1, "go home", GoalState.RUNNING),
+        mission(2, "go to the attic", GoalState.RUNNING),
+        mission(1, "go home"),
+    )
+    first = asyncio.run(history.changed_since(0, 1))
+    rest = asyncio.run(history.changed_since(first.cursor, 9))
+    assert [(m.id, m.state) for m in (*first.missions, *rest.missions)] == [
+        ("g2", GoalState.RUNNING), ("g1", GoalState.SUCCEEDED),
+    ]  # fmt: skip
+    none = asyncio.run(history.changed_since(rest.cursor, 9))
+    assert (none.missions, none.cursor) == ((), rest.cursor)
+    written(tmp_path, mission(2, "go to the attic", GoalState.FAILED))
+    later = asyncio.run(history.changed_since(none.cursor, 9))
+    assert [(m.id, m.state) for m in later.missions] == [("g2", GoalState.FAILED)]
+
+
+def test_an_empty_home_has_no_changes_and_no_keys(tmp_path: Path) -> None:
+    history = GoalHistory.in_home(tmp_path)
+    assert asyncio.run(history.changed_since(7, 9)).cursor == 7
+    assert asyncio.run(history.find_key("k")) is None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import resource
@@ -19,6 +20,7 @@ from sqlalchemy.dialects.postgresql.base import PGDialect
 
 from planner.language.catalogue import message
 from planner.mission.effects import Journal
+from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import (
     KEPT_WHOLE,
     MAX_KEPT,
@@ -107,15 +109,34 @@ def test_the_oldest_goals_that_ended_leave_the_disk_and_no_open_one_does(tmp_pat
     assert kept.missions[-1].id == f"e{MAX_KEPT + 4 * PRUNE_EVERY - 1}"
     engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
     with engine.connect() as connection:
-        for table, column, most in (
-            ("missions", "id", MAX_KEPT), ("transitions", "mission", KEPT_WHOLE),
-        ):  # fmt: skip
+        for table, column in (("missions", "id"), ("transitions", "mission")):
             found = connection.execute(sa.text(f"select {column} from {table}")).scalars().all()
             ended_ids = [name for name in found if name.startswith("e")]
-            assert len(ended_ids) == most
+            assert len(ended_ids) == MAX_KEPT
             assert "e0" not in ended_ids
             assert sum(name.startswith("open") for name in found) == 5
     engine.dispose()
+
+
+def test_of_an_old_goal_the_last_transition_stays_and_its_key_for_good(tmp_path: Path) -> None:
+    journal = MissionJournal.in_home(tmp_path)
+    count = KEPT_WHOLE + 2 * PRUNE_EVERY
+    for batch in range(0, count, PRUNE_EVERY):
+        numbers = range(batch, batch + PRUNE_EVERY)
+        running = tuple(mission(f"e{n}", n, GoalState.RUNNING) for n in numbers)
+        ended = tuple(mission(f"e{n}", n, GoalState.SUCCEEDED) for n in numbers)
+        keys = tuple(GoalKey(f"k{n}", "f", f"e{n}") for n in numbers)
+        journal.write((Journal(2 + batch, running, ()), Journal(3 + batch, ended, ())), keys)
+    journal.close()
+    history = GoalHistory.in_home(tmp_path)
+    _, old = asyncio.run(history.story("e0"))
+    _, new = asyncio.run(history.story(f"e{count - 1}"))
+    assert [change.state for change in old.changes] == [GoalState.SUCCEEDED]
+    assert [change.state for change in new.changes] == [GoalState.RUNNING, GoalState.SUCCEEDED]
+    assert asyncio.run(history.find_key("k0")) == GoalKey("k0", "f", "e0")
+    assert asyncio.run(history.find_key("k")) is None
+    changed = asyncio.run(history.changed_since(0, count))
+    assert [m.id for m in changed.missions] == [f"e{n}" for n in range(count)]
 
 
 def test_a_journal_of_an_older_program_is_pruned_bit_by_bit(tmp_path: Path) -> None:

@@ -14,10 +14,11 @@ PACKAGE = "pons-robot"
 def version_line() -> str:
     """Return the line for a person and a bug report."""
     commit = _commit()
-    return f"pons {_version()}" + (f" ({commit})" if commit else "")
+    return f"pons {release()}" + (f" ({commit})" if commit else "")
 
 
-def _version() -> str:
+def release() -> str:
+    """Return the version alone."""
     if not IS_INSTALLED:  # a checkout may have been installed at another version
         return str(tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"])
     from importlib.metadata import version
