@@ -207,6 +207,7 @@ HELP = {
         "pons people",
         'pons people add "Ana\'s phone"',
         "pons people add guest --role viewer",
+        "pons people add Claude --role agent",
         "pons people remove guest",
     ),
     "places": _entry(
