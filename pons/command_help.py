@@ -247,6 +247,9 @@ HELP = {
     "eval": _entry(
         "score what a brain plans, on sentences",
     ),
+    "mcp": _entry(
+        "serve this robot to an assistant that speaks MCP",
+    ),
     "mock-llm": _entry(
         "serve a model that is none, with faults",
     ),

@@ -15,13 +15,14 @@ from pons.command_parser import CommandParser, add_command
 if TYPE_CHECKING:
     Words = argparse._SubParsersAction[CommandParser]  # noqa: SLF001  # it has no public name
 
+MCP = "mcp"
 MOCK_LLM = "mock-llm"
 EVAL = "eval"
 SITE = "site"
 MAP = "map"
 ROBOT = "robot"
 NAV2 = "nav2"
-APART = (EVAL, MOCK_LLM, SITE, MAP, ROBOT, NAV2)
+APART = (EVAL, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2)
 """They read their own words."""
 OPERATOR = ("arm", "disarm", "estop", "reset")
 """Acts of an operator."""
