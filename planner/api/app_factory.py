@@ -29,6 +29,7 @@ from planner.api import (
     rehearsals,
     robot,
     setup,
+    skills,
     static_files,
     usage,
     voice,
@@ -49,8 +50,8 @@ if TYPE_CHECKING:
 
 _PARTS = (
     goals, rehearsals, voice, live_voice, operator, hand, setup, robot, orders, places,
-    localization, objects, memory, pictures, camera, fence, marks, people, usage, history, health,
-    websocket,
+    localization, objects, memory, pictures, camera, fence, marks, people, skills, usage, history,
+    health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

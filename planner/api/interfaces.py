@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from planner.plan import Goal, GoToPose, Language
     from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
+    from planner.skill_files.folder import SkillFolder
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
         Answer,
@@ -286,3 +287,6 @@ class Services(Protocol):
 
     @property
     def people(self) -> People: ...
+
+    @property
+    def skills(self) -> SkillFolder: ...
