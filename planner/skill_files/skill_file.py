@@ -55,13 +55,18 @@ def read_skill(path: Path) -> Skill:
     return found
 
 
-def _text_of(path: Path) -> str:
-    """Return a file's text; a link, a device, a pipe and what is too long are refused unopened."""
-    name = path.name
+def check_name(path: Path) -> None:
+    """Judge the name of a skill's file. Raises SkillProblem."""
     try:
         _NAME.validate_python(path.stem)
     except ValidationError:
-        raise SkillProblem("skill_name", name) from None
+        raise SkillProblem("skill_name", path.name) from None
+
+
+def _text_of(path: Path) -> str:
+    """Return a file's text; a link, a device, a pipe and what is too long are refused unread."""
+    name = path.name
+    check_name(path)
     try:
         opened = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError as wrong:
