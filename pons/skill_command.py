@@ -144,7 +144,7 @@ def _list(settings: LaunchSettings, *, as_json: bool) -> int:
 
 def _names(settings: LaunchSettings) -> Vocabulary:
     """Return the names of the site, with what was taught to a planner that answers."""
-    from planner.plan import Bilingual, Entry
+    from planner.plan import Bilingual, Entry, Vocabulary
     from planner.site import Site
     from planner.site.site_view import vocabulary_of
 
@@ -158,7 +158,7 @@ def _names(settings: LaunchSettings) -> Vocabulary:
         for each in places
         if each["id"] not in names
     )
-    return names.model_copy(update={"entries": (*names.entries, *taught)})
+    return Vocabulary(entries=(*names.entries, *taught), sentences=names.sentences)
 
 
 def _check(settings: LaunchSettings, files: list[Path]) -> int:
@@ -179,8 +179,8 @@ def _check(settings: LaunchSettings, files: list[Path]) -> int:
         read = SkillsRead(tuple(skills), tuple(problems))
     for skill in read.skills:
         print(f"ok   {skill.file:<24} {'  '.join((*skill.en, *skill.zh))}")
-    for problem in read.problems:
-        _tell(problem, EXIT_FOUND)
+    for each in read.problems:
+        _tell(each, EXIT_FOUND)
     if not read.skills and not read.problems:
         print(pick("no skill yet: pons skill new NAME", "还没有技能：pons skill new 名称"))
     return EXIT_FOUND if read.problems else EXIT_DONE

@@ -275,7 +275,9 @@ class KnownPlaces:
 
     def _check_names(self, lesson: Lesson, names: Names, before: TaughtPlace | None) -> None:
         others = tuple(p for p in self._places if before is None or p.id != before.id)
-        vocabulary = vocabulary_of(self.site, tuple(p for p in others if p not in self.site.places))
+        taught = tuple(p for p in others if p not in self.site.places)
+        called = {"skills": self._skills, "skill_templates": self._facts.skill_templates}
+        vocabulary = vocabulary_of(self.site, taught).model_copy(update=called)
         asked = {names.en, names.zh}
         if lesson.place_id is not None:
             if self.site.place(lesson.place_id) is not None:

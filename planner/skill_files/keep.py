@@ -72,7 +72,7 @@ def _file_name(name: str) -> str:
 def write_routine(name: str, steps: Sequence[Step]) -> str:
     """Return the text of a routine that is called by a name, and by "do" before it."""
     called = "".join(each for each in name if each not in "()[]{}<>|@")
-    words = f"[做|执行|开始]{called}" if has_chinese(called) else f"[do|start] [the] {called}"
+    words = f"[做|执行]{called}" if has_chinese(called) else f"[do|make] [the] {called}"
     tongue = "zh" if has_chinese(called) else "en"
     rows = [_inline(step.model_dump(mode="json", exclude_none=True)) for step in steps]
     listed = "".join(f"  {row},\n" for row in rows)

@@ -98,8 +98,11 @@ def _draw(skill: Skill, sentence: str, tongue: str, names: Vocabulary) -> list[s
 def _ways(expression: Expression) -> list[tuple[str, ...]]:
     match expression:
         case LiteralWords():
-            rows = [option for each in expression.by_length.values() for option in sorted(each)]
-            return rows[:4]
+            options = (option for each in expression.by_length.values() for option in each)
+            rows = sorted(options, key=lambda option: (len(option), option))
+            return (
+                rows if len(rows) <= 2 * MOST_TRIED else [*rows[:MOST_TRIED], *rows[-MOST_TRIED:]]
+            )
         case Sequel():
             combined = islice(product(*map(_ways, expression.parts)), MOST_DRAWN)
             return [tuple(token for part in way for token in part) for way in combined]

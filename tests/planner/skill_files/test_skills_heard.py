@@ -208,7 +208,11 @@ def test_calls_in_branches_are_replaced_and_evidence_stays_with_its_step(names: 
 
 def _think(brain: Brain, text: str, names: Vocabulary) -> Planned:
     ask = AskBrain(id="g1", text=text, language=Language.EN)
-    return asyncio.run(thinker(brain, names)(ask))
+
+    async def think() -> Planned:
+        return await thinker(brain, names)(ask)
+
+    return asyncio.run(think())
 
 
 def test_the_missions_are_handed_steps_alone(names: Vocabulary) -> None:
