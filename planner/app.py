@@ -35,6 +35,8 @@ from planner.settings import list_keys, load_settings
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.site.marks import marks_path
+from planner.skill_files.folder import SkillFolder
+from planner.skill_files.keep import SkillKeeper
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
 from planner.voice import VoiceAbilities
@@ -129,7 +131,7 @@ class Planner:
         )
         self.orders = standing_orders_of(self.settings.orders, where.home, self._state, self.goals)
         self.goals.show_scans(self._router)
-        self._begin_memory()
+        self._begin_memory(where.home)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
         self.goals.loop.bound_search(picture_limits(self.settings), spent_by(self.budget))
 
@@ -145,9 +147,15 @@ class Planner:
         """Show what is heard and spoken."""
         return self._voice.abilities()
 
-    def _begin_memory(self) -> None:
-        """Let what the eyes see and what people tell be remembered."""
+    def _begin_memory(self, home: Path) -> None:
+        """Let what the eyes see and what people tell and teach be remembered."""
         self.goals.find_keys_by(self.history.find_key)
+        self.skills = SkillFolder(
+            home,
+            lambda: self.memory.vocabulary,
+            lambda read: self.memory.keep_skills(read.skills),
+        )
+        self.goals.commands.skills = SkillKeeper(self.skills)
         limits = MemoryLimits(**self.settings.memory.model_dump())
         self.recollection = Recollection(MemoryStore(self._state, limits))
         self.recorder = SightingRecorder(
@@ -192,6 +200,7 @@ class Planner:
             shown = self._session.publisher(PLAN_VIEW)
             places = self.memory
             loop.hub.join(PlanDisplay(shown, lambda: loop.leg, lambda: places.places, monotonic))
+        await self.skills.start()
         await self.eyes.start()
         await self.recorder.start(self.eyes.sight.things)
         await self.orders.keeper.start()
@@ -202,6 +211,7 @@ class Planner:
     async def close(self) -> None:
         """End all parts; goals that ran come back paused in the next process."""
         await self.orders.keeper.close()
+        await self.skills.close()
         await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()

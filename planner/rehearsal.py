@@ -15,21 +15,26 @@ from planner.brain.interface import ThinkRequest
 from planner.brain.offline_brain import OfflineBrain
 from planner.language.catalogue import message, say
 from planner.language.formatting import definite
+from planner.language.sentence import parse
 from planner.mission.leg_routes import SHORT_M
 from planner.mission.skills import DriveLeg, Fail, Scene, Way, act_of, begin_state, no_room
 from planner.navigation import RouteFailure, RouteRequest
 from planner.navigation.drive_time import leg_s, spin_s
 from planner.plan import (
     JUDGED,
+    RUNNABLE,
     Bilingual,
     Code,
+    StepPlan,
     StepRecord,
     StepRole,
     StepState,
     children_of,
+    holds_call,
     plan_record,
 )
 from planner.plan.base import Frozen
+from planner.skill_files.calls import SkillFailed, SkillScene, unfold
 from wire import Pose2
 from wire.geometry import wrap
 
@@ -182,8 +187,18 @@ class Rehearser:
             vocabulary=self._site.vocabulary,
             language=language,
             room=self._site.facts.room_at(pose.x_m, pose.y_m),
+            runnable=RUNNABLE | self._site.vocabulary.calls,
         )
-        return await self.of_plan(plan_record((await OfflineBrain().think(request)).plan))
+        plan = (await OfflineBrain().think(request)).plan
+        if isinstance(plan, StepPlan) and holds_call(plan.steps):
+            tongue = language or parse(text).language
+            scene = SkillScene(request.vocabulary, tongue, request.room)
+            try:
+                plan = (await unfold(plan, scene)).plan
+            except SkillFailed as failed:
+                said = failed.problem.outcome(failed.name).message
+                raise RehearsalError("rehearsal_no_plan", str(failed), said) from None
+        return await self.of_plan(plan_record(plan))
 
     async def of_plan(self, plan: PlanRecord | None) -> Rehearsal:
         """Rehearse a plan from here and now: of one under way, what is left of it.

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 EXIT_USAGE = 2
 _FOLLOW = frozenset({
     "say", "answer", "confirm", "cancel", "pause", "resume", "places", "orders", "replies", "why",
-    "arm", "reset", "people", "goals", "log", "open", "down", "logs",
+    "arm", "reset", "people", "goals", "log", "open", "down", "logs", "skill",
 })  # fmt: skip
 """Words to a robot that runs: in a folder without one, this user's only one is meant."""
 EXIT_UNREAD = 141
@@ -93,6 +93,7 @@ def _run_command(words: list[str]) -> int:
         NAV2,
         ROBOT,
         SITE,
+        SKILL,
         parser,
     )
 
@@ -123,6 +124,10 @@ def _run_command(words: list[str]) -> int:
         from pons import robot
 
         return robot.run(settings, words[1:])
+    if words[:1] == [SKILL]:  # likewise
+        from pons import skill_command
+
+        return skill_command.run(settings, words[1:])
     if words[:1] == [NAV2]:  # likewise
         from ros2.nav2 import main as nav2
 

@@ -262,6 +262,9 @@ HELP = {
     "robot": _entry(
         "choose a preset, find what is plugged in, try a robot, its wheels off the ground",
     ),
+    "skill": _entry(
+        "make a skill of your own in a file, check and try it",
+    ),
     "nav2": _entry(
         "let Nav2 drive through the bridge, in the planner's place",
     ),

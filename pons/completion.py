@@ -42,12 +42,12 @@ def run(shell: str) -> int:
 
 def grammars() -> argparse.ArgumentParser:
     """Return the whole grammar, with that of the commands that read their own words."""
-    from pons import mapping, robot, site_grammar
-    from pons.grammar import MAP, ROBOT, SITE, parser
+    from pons import mapping, robot, site_grammar, skill_command
+    from pons.grammar import MAP, ROBOT, SITE, SKILL, parser
 
     top = parser()
     commands = _commands(top)
-    commands[ROBOT] = robot.parser()
+    commands[ROBOT], commands[SKILL] = robot.parser(), skill_command.parser()
     commands[SITE], commands[MAP] = site_grammar.parser(), mapping.parser()
     return top
 

@@ -22,7 +22,8 @@ SITE = "site"
 MAP = "map"
 ROBOT = "robot"
 NAV2 = "nav2"
-APART = (EVAL, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2)
+SKILL = "skill"
+APART = (EVAL, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2, SKILL)
 """They read their own words."""
 OPERATOR = ("arm", "disarm", "estop", "reset")
 """Acts of an operator."""

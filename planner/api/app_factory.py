@@ -30,6 +30,7 @@ from planner.api import (
     rehearsals,
     robot,
     setup,
+    skills,
     static_files,
     usage,
     voice,
@@ -50,7 +51,7 @@ if TYPE_CHECKING:
 
 _PARTS = (
     goals, rehearsals, voice, live_voice, operator, hand, setup, robot, capabilities, orders,
-    places, localization, objects, memory, pictures, camera, fence, marks, people, usage,
+    places, localization, objects, memory, pictures, camera, fence, marks, people, skills, usage,
     history, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"

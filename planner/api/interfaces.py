@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from planner.plan import Goal, Language, Means, Step
     from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
+    from planner.skill_files.folder import SkillFolder
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
         Answer,
@@ -292,3 +293,6 @@ class Services(Protocol):
 
     @property
     def people(self) -> People: ...
+
+    @property
+    def skills(self) -> SkillFolder: ...

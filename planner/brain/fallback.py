@@ -16,7 +16,7 @@ from planner.brain.interface import Brain, ThinkRequest, ThinkResult
 from planner.brain.model_error_codes import tell_failure
 from planner.brain.streamed_draft import Draft, Hear
 from planner.language.grammar.sentence_text import refuse_bad_text
-from planner.plan import AnswerPlan, BrainTag, Clarify, Code, Refuse, StepPlan
+from planner.plan import AnswerPlan, BrainTag, Clarify, Code, Refuse, StepPlan, holds_call
 
 log = logging.getLogger(__name__)
 
@@ -60,6 +60,10 @@ class FallbackBrain:
         """
         if refuse_bad_text(request.text) is not None:  # no model is paid to read what is no text
             return await self._offline.think(request)
+        if request.vocabulary.skills and not (request.observed or request.exchanges):
+            own = await self._offline.think(request)  # by its own words: no model is asked
+            if isinstance(own.plan, StepPlan) and holds_call(own.plan.steps):
+                return own
         if not self.breaker.lets(self._clock()):
             rests_s = self.breaker.rests_s(self._clock())
             return await self._instead(request, BrainDown(f"{rests_s:.0f} s more", why="resting"))

@@ -25,7 +25,7 @@ from planner.brain.schema import (
 )
 from planner.brain.situation_text import tell_situation
 from planner.language.folding import has_chinese
-from planner.plan import EVERY_KIND, NEEDS_CAMERA, Code, Entry, Language, Vocabulary
+from planner.plan import CALLS, EVERY_KIND, NEEDS_CAMERA, Code, Entry, Language, Vocabulary
 from pons_assets import PROMPTS
 
 BUDGET_TOKENS = 1500
@@ -33,6 +33,8 @@ ORDER_TOKENS = 120
 """Of the budget, left for the order and what came of its steps."""
 SITUATION_TOKENS = 110
 """And for where things stand, at least: recent goals give way, the oldest first."""
+SKILL_TOKENS = 160
+"""And for the owner's skills, at most."""
 FIXED_TO_CHANGING = 4
 """Tokens that never change to those that do. A server then keeps three quarters of a request's
 bytes from one order to the next. It binds on a small site alone, whose fixed part is short."""
@@ -130,7 +132,12 @@ def _system(
     """Fill the template; a place has as many names as the budget allows, and one more at least."""
     sees = bool(runnable & NEEDS_CAMERA)
     filled = {
-        "steps": "\n".join(map(step_line, step_models(runnable).values())),
+        "steps": "\n".join(
+            [
+                *map(step_line, step_models(runnable - CALLS).values()),
+                *_skill_lines(vocabulary, runnable),
+            ]
+        ),
         "clarify": _codes([code for code in CLARIFY_CODES if code not in REFUSE_CODES]),
         "refuse": _codes(REFUSE_CODES),
         "robot": _CAMERA + _tell_kinds(kinds) if sees else _BLIND[blind is Code.NO_DETECTOR],
@@ -144,6 +151,24 @@ def _system(
         if count_tokens(text) <= BUDGET_TOKENS - ORDER_TOKENS - SITUATION_TOKENS:
             break
     return text
+
+
+def _skill_lines(vocabulary: Vocabulary, runnable: frozenset[str]) -> list[str]:
+    """Return a line for each skill, the first ones, within their own bound of tokens.
+
+    One that is left out is still heard by its own words, which no model reads.
+    """
+    lines: list[str] = []
+    left = SKILL_TOKENS if runnable >= CALLS else 0
+    for skill in vocabulary.skills:
+        takes = as_json([each.name for each in skill.parameters])
+        said = next(iter(skill.en or skill.zh), "")
+        line = f'use_skill {{"name":"{skill.name}","arguments":{takes}}} {said[: _KIND * 2]}'
+        left -= count_tokens(line) + 1
+        if left < 0:
+            break
+        lines.append(line)
+    return lines
 
 
 def _can_be_shown(line: str, runnable: frozenset[str]) -> bool:

@@ -171,7 +171,8 @@ def _plain(name: str, shape: dict[str, Any], ids: list[str]) -> dict[str, Any]:
     kind, choices = _type(shape), _choices(shape)
     if choices:
         return {"type": kind, "enum": choices}
-    one = {"type": "string", "enum": ids} if name in _PLACES else {"type": kind}
+    plain = "string" if kind == "array" else kind
+    one = {"type": "string", "enum": ids} if name in _PLACES else {"type": plain}
     return {"type": "array", "items": one} if kind == "array" else one
 
 

@@ -33,6 +33,7 @@ from planner.plan import (
     StandAt,
     Step,
     Turn,
+    UseSkill,
     Wait,
     WaitFor,
 )
@@ -195,6 +196,8 @@ def _tell_plain(step: Step) -> Bilingual:
             return say("order.wait_for", object=_with_article(what))
         case WaitFor(word=str(word)):
             return say("order.wait_word", word=word)
+        case UseSkill():
+            return say("order.use_skill", name=step.name.replace("_", " "))
         case WaitFor():
             return say("order.wait_until", time=step.time or "")
         case _:

@@ -11,12 +11,12 @@ import re
 
 from planner.language.commands.parser import intent_of
 from planner.language.folding import has_chinese
-from planner.language.grammar import plan
+from planner.language.grammar import Context, plan
 from planner.language.grammar.sentence_text import normalise
 from planner.language.object_classes import KINDS
 from planner.language.object_names import canonical
 from planner.language.stop import StopReading, is_stop, read_stop
-from planner.plan import Clarify, Code, Plan, Refuse, Vocabulary
+from planner.plan import RUNNABLE, Clarify, Code, Plan, Refuse, Vocabulary
 
 _HARMLESS = frozenset(
     {Code.UNKNOWN_PLACE, Code.NOT_UNDERSTOOD, Code.NO_CAMERA, Code.NO_CAPABILITY, Code.AMBIGUOUS}
@@ -85,7 +85,8 @@ def name_reads_as_order(name: str, vocabulary: Vocabulary) -> bool:
     if name_is_command(name):
         return True
     sentences = (name, f"go to the {name}", f"去{name}")
-    return not all(_harmless(plan(sentence, vocabulary)) for sentence in sentences)
+    can = Context(runnable=RUNNABLE | vocabulary.calls)
+    return not all(_harmless(plan(sentence, vocabulary, can)) for sentence in sentences)
 
 
 def name_is_command(name: str) -> bool:

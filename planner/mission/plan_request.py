@@ -26,6 +26,7 @@ from planner.language.catalogue import join, message, say
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
+from planner.language.sentence import parse
 from planner.language.yes_no import consents
 from planner.mission.antecedents import ORDERS_BACK
 from planner.mission.departure import LEANS_S
@@ -44,8 +45,10 @@ from planner.plan import (
     StepPlan,
     Vocabulary,
     check_plan,
+    holds_call,
     list_nodes,
 )
+from planner.skill_files.calls import SkillFailed, SkillScene, unfold
 
 CHECKS = frozenset({"look", "find", "count", "ask", "recall"})
 """Steps after which what an order puts on a condition may be done."""
@@ -140,7 +143,7 @@ def thinker(
             vocabulary=vocabulary,
             room=ask.room,
             language=ask.language,
-            runnable=means.plannable,
+            runnable=means.plannable | vocabulary.calls,
             blind=means.blind,
             things=things_of(classes) if means.detector else frozenset(),
             kinds=classes if means.detector else (),
@@ -171,14 +174,29 @@ def thinker(
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
             return Planned(ask.id, None, said, error.brain or brain.tag)
-        runnable = means.runnable - (GIVEN if _points_beyond(thought.plan, ask) else frozenset())
-        rejection = check_plan(thought.plan, vocabulary, runnable, means.blind)
+        unasked, sure = await _hold_to_words(thought, request)
+        made: Plan = thought.plan
+        if isinstance(made, StepPlan) and holds_call(made.steps):
+            try:
+                unfolded = await unfold(made, _scene(request, clock))
+            except SkillFailed as failed:
+                log.warning("goal %s: %s", ask.id, failed)
+                return Planned(ask.id, None, failed.problem.outcome(failed.name), thought.brain)
+            made, unasked = unfolded.plan, unfolded.unasked(unasked, by_grammar=thought.by_grammar)
+        runnable = means.runnable - (GIVEN if _points_beyond(made, ask) else frozenset())
+        rejection = check_plan(made, vocabulary, runnable, means.blind)
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
-        unasked, sure = await _hold_to_words(thought, request)
-        return Planned(ask.id, thought.plan, None, thought.brain, unasked, sure)
+        return Planned(ask.id, made, None, thought.brain, unasked, sure)
 
     return think
+
+
+def _scene(request: ThinkRequest, clock: Callable[[], datetime]) -> SkillScene:
+    """Return what a skill is told of where things stand."""
+    language = request.language or parse(request.text).language
+    battery = None if request.situation is None else request.situation.battery
+    return SkillScene(request.vocabulary, language, request.room, battery, clock())
 
 
 def _points_beyond(plan: Plan, ask: AskBrain) -> bool:
@@ -220,7 +238,7 @@ async def _read_surely(request: ThinkRequest) -> StepPlan | None:
     if not isinstance(plan, StepPlan):
         return None
     rejection = check_plan(plan, request.vocabulary, request.runnable, request.blind)
-    return plan if rejection is None else None
+    return plan if rejection is None and not holds_call(plan.steps) else None
 
 
 def unasked_of(thought: ThinkResult, request: ThinkRequest) -> tuple[int, ...]:

@@ -19,6 +19,7 @@ from planner.language.commands import (
     ForgetFacts,
     HereCommand,
     Intent,
+    KeepSkill,
     OutcomeCommand,
     PauseCommand,
     Remember,
@@ -27,6 +28,7 @@ from planner.language.commands import (
     Slower,
     TeachFact,
 )
+from planner.language.plan_words import tell_steps
 from planner.language.readers import BY_THE_PLANNER, readings
 from planner.language.reading import CommandReading, OrdersReading
 from planner.language.schedule import ChangeOrders, OrderCommand
@@ -36,15 +38,17 @@ from planner.mission.agents import NEEDED, hold_to_agent, is_agents, may_say
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
+from planner.mission.follow_up import last_orders
 from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
 from planner.mission.state import goal_to_end
-from planner.plan import AnswerPlan, Bilingual, Code, Refuse, Say, StepPlan
+from planner.plan import AnswerPlan, Bilingual, Code, Refuse, Say, StepPlan, steps_of
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
 from planner.site.places import normalise
 from planner.site.pose_hint import hint_in
+from planner.skill_files.problems import SkillProblem
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -57,6 +61,7 @@ if TYPE_CHECKING:
     from planner.mission.tasks import Think
     from planner.site.known_places import KnownPlaces
     from planner.site.places import Place
+    from planner.skill_files.keep import SkillKeeper
     from wire import HintVerdict, PoseHint
 
 SPOKEN_BY = "sentence"
@@ -96,6 +101,8 @@ class PlannerCommands:
         self.fact_commands = FactCommands(lookup, memory, loop)
         self.desk: OrderDesk | None = None
         """Who keeps the standing orders."""
+        self.skills: SkillKeeper | None = None
+        """Who keeps an order's steps as a skill."""
 
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
@@ -174,10 +181,8 @@ class PlannerCommands:
         """Do it and say how it went."""
         book = self._loop.book
         match intent:
-            case Remember(name):
-                return await self._remember(name)
-            case Forget(name):
-                return await self._forget(name)
+            case Remember() | Forget() | KeepSkill():
+                return await self._learn(intent, mission)
             case TeachFact() | ForgetFacts():
                 return await self.fact_commands.carry_out(intent)
             case HereCommand(name):
@@ -247,6 +252,18 @@ class PlannerCommands:
             return _hint_refused("no_answer" if verdict is None else verdict.code)
         return AnswerPlan(text=say("hint.accepted"))
 
+    async def _learn(
+        self, intent: Remember | Forget | KeepSkill, mission: Mission
+    ) -> AnswerPlan | Refuse:
+        """Keep a place or a skill under a name, or forget a place."""
+        match intent:
+            case Remember(name):
+                return await self._remember(name)
+            case Forget(name):
+                return await self._forget(name)
+            case KeepSkill(name):
+                return await self._keep_skill(name, mission)
+
     async def _remember(self, name: str) -> AnswerPlan | Refuse:
         try:
             place, new = await self._memory.teach(Lesson(en=name, by=SPOKEN_BY))
@@ -256,6 +273,19 @@ class PlannerCommands:
         if new:
             return AnswerPlan(text=say("commands.remembered", names=names))
         return AnswerPlan(text=say("commands.place_moved", names=names))
+
+    async def _keep_skill(self, name: str, mission: Mission) -> AnswerPlan | Refuse:
+        """Keep what the order before was planned as; what a skill of it did, too."""
+        before = last_orders(self._loop.book, mission.created_unix_s)
+        steps = next((steps_of(m.steps) for m in before if m.steps and m.id != mission.id), ())
+        if not steps or self.skills is None:
+            return _skill_refused(say("skill.skill_nothing_before"))
+        try:
+            skill = await self.skills.keep(name, steps)
+        except SkillProblem as problem:
+            return _skill_refused(problem.said)
+        told = tell_steps(steps, self._memory.vocabulary.name)
+        return AnswerPlan(text=say("skill.kept", name=name, steps=told, file=skill.file))
 
     async def _forget(self, name: str) -> AnswerPlan | Refuse:
         try:
@@ -289,6 +319,11 @@ def not_kept(refused: PlaceRefusal) -> Refuse:
     """Say why a place was not kept or not forgotten."""
     why = refused.why
     return Refuse(code=Code.PLACE_NOT_KEPT, reason=message(Code.PLACE_NOT_KEPT, why=why))
+
+
+def _skill_refused(why: Bilingual) -> Refuse:
+    """Say why an order's steps were not kept."""
+    return Refuse(code=Code.SKILL_NOT_KEPT, reason=message(Code.SKILL_NOT_KEPT, why=why))
 
 
 def _hint_refused(code: str) -> Refuse:

@@ -45,8 +45,10 @@ from planner.plan.responses import (
     StepPlan,
     words_of,
 )
+from planner.plan.skill import Parameter, ParameterKind, Skill
 from planner.plan.slots import steps_of
 from planner.plan.steps import (
+    CALLS,
     CONDITIONS,
     CONTROL,
     DRIVES,
@@ -84,6 +86,7 @@ from planner.plan.steps import (
     StandAt,
     Step,
     Turn,
+    UseSkill,
     Wait,
     WaitFor,
 )
@@ -93,6 +96,7 @@ from planner.plan.tree import (
     StepRole,
     children_of,
     end_of,
+    holds_call,
     list_nodes,
     parent_of,
     parents_of,
@@ -102,6 +106,7 @@ from planner.plan.vocabulary import Entry, PlaceId, Vocabulary
 
 __all__ = [
     "BARE",
+    "CALLS",
     "CONDITIONS",
     "CONTROL",
     "DRIVES",
@@ -155,6 +160,8 @@ __all__ = [
     "MoveStraight",
     "Option",
     "Outcome",
+    "Parameter",
+    "ParameterKind",
     "Patrol",
     "PatrolSighting",
     "PauseReason",
@@ -172,6 +179,7 @@ __all__ = [
     "ReturnHome",
     "Say",
     "Side",
+    "Skill",
     "Span",
     "Spot",
     "StandAt",
@@ -182,6 +190,7 @@ __all__ = [
     "StepRole",
     "StepState",
     "Turn",
+    "UseSkill",
     "Vocabulary",
     "Wait",
     "WaitFor",
@@ -190,6 +199,7 @@ __all__ = [
     "children_of",
     "end_of",
     "fault",
+    "holds_call",
     "lacking",
     "list_nodes",
     "parent_of",

@@ -12,7 +12,7 @@ from pydantic import AwareDatetime, Field
 from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
-from planner.plan.steps import ClockTime, Side, Span, Step
+from planner.plan.steps import ClockTime, Side, Span, Step, UseSkill
 from planner.plan.tree import StepNode, StepRole, list_nodes
 
 
@@ -224,6 +224,8 @@ def _step_record(node: StepNode) -> StepRecord:
     fields = node.step.model_dump(exclude=_HELD)
     if "question" in fields:
         fields["text"] = fields.pop("question")
+    if isinstance(node.step, UseSkill):  # for showing: its own steps take its place before a walk
+        fields = {"kind": node.step.kind, "text": node.step.name}
     return StepRecord.model_validate({**fields, "depth": node.depth, "role": node.role})
 
 

@@ -42,6 +42,8 @@ class Code(StrEnum):
     NOT_KEPT = "not_kept"
     ORDER_NOT_KEPT = "order_not_kept"
     HINT_REFUSED = "hint_refused"
+    SKILL_FAILED = "skill_failed"
+    SKILL_NOT_KEPT = "skill_not_kept"
     # On the way.
     CONFIRM = "confirm"
     ASKED = "asked"

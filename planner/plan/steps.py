@@ -15,6 +15,7 @@ from typing import Annotated, Literal, Self, get_args
 from pydantic import Field, StringConstraints, model_validator
 
 from planner.plan.base import Frozen
+from planner.plan.skill import MOST_PARAMETERS, SkillName
 from planner.plan.vocabulary import PlaceId
 from wire.bounded_types import Fingerprint
 from wire.geometry import Metres, Yaw
@@ -272,6 +273,18 @@ class WaitFor(Frozen):
         return self
 
 
+class UseSkill(Frozen):
+    """Do a skill of the owner's."""
+
+    kind: Literal["use_skill"] = "use_skill"
+    name: SkillName
+    arguments: Annotated[
+        tuple[Annotated[str, StringConstraints(max_length=200)], ...],
+        Field(max_length=MOST_PARAMETERS),
+    ] = ()
+    """In the row of the skill's parameters; an empty one is left out."""
+
+
 Step = Annotated[
     GoTo
     | GoToPose
@@ -296,7 +309,8 @@ Step = Annotated[
     | WaitFor
     | If
     | Attempt
-    | Repeat,
+    | Repeat
+    | UseSkill,
     Field(discriminator="kind"),
 ]
 for _model in (If, Attempt, Repeat):
@@ -313,8 +327,13 @@ STANDS = frozenset({"recall"})
 """What names a place and drives nowhere."""
 GIVEN = frozenset({"go_to_pose"})
 """What a person alone gives, by pointing: no brain is offered it, and none may write it."""
+CALLS = frozenset({"use_skill"})
+"""What stands for other steps, which take its place before a plan is judged: no mission walks it,
+and it is offered where there are skills alone."""
 EVERY_KIND = (
-    frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS) - GIVEN
+    frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
+    - GIVEN
+    - CALLS
 )
 """What a brain's plan may hold at all; a robot's own `runnable` is a part of it."""
 CONTROL = frozenset({"if", "try", "repeat"})

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
 
-from planner.plan.steps import Attempt, ClockTime, If, Repeat, Step
+from planner.plan.steps import Attempt, ClockTime, If, Repeat, Step, UseSkill
 
 
 class StepRole(StrEnum):
@@ -45,6 +45,11 @@ class StepNode:
 def list_nodes(steps: Sequence[Step]) -> tuple[StepNode, ...]:
     """Return all steps of a plan in one row."""
     return tuple(node for step in steps for node in _walk(step, 0, None))
+
+
+def holds_call(steps: Sequence[Step]) -> bool:
+    """Return whether a skill is called anywhere in these steps."""
+    return any(isinstance(node.step, UseSkill) for node in list_nodes(steps))
 
 
 def _walk(step: Step | ClockTime, depth: int, role: StepRole | None) -> Iterator[StepNode]:

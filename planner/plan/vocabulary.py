@@ -12,6 +12,7 @@ from typing import Annotated, Literal, Self
 from pydantic import StringConstraints, model_validator
 
 from planner.plan.base import Bilingual, Frozen
+from planner.plan.skill import Skill
 
 PlaceId = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9_]{0,63}$")]
 Alias = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
@@ -43,6 +44,10 @@ class Vocabulary(Frozen):
     entries: tuple[Entry, ...] = ()
     sentences: str = ""
     """Templates of sentences by the site's owner, as their file holds them; checked when loaded."""
+    skills: tuple[Skill, ...] = ()
+    """What the owner has added in files of their own."""
+    skill_templates: str = ""
+    """The sentences that call them, as such a file holds them."""
 
     @model_validator(mode="after")
     def _ids_once(self) -> Self:
@@ -59,6 +64,15 @@ class Vocabulary(Frozen):
     def __hash__(self) -> int:
         """Hash the ids alone: sentences are looked up by their vocabulary hundreds of times."""
         return hash(tuple(self.by_id))
+
+    def skill(self, name: str) -> Skill | None:
+        """Return the skill of a name; None: there is none."""
+        return next((each for each in self.skills if each.name == name), None)
+
+    @property
+    def calls(self) -> frozenset[str]:
+        """Return the kinds of steps that call a skill; none where there are no skills."""
+        return frozenset({"use_skill"}) if self.skills else frozenset()
 
     def __contains__(self, place: object) -> bool:
         return place in self.by_id

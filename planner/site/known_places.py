@@ -18,7 +18,7 @@ from typing import Any, Protocol, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
 from planner.language.folding import unmask
-from planner.plan import Vocabulary
+from planner.plan import Skill, Vocabulary
 from planner.site.marks import SiteMarks
 from planner.site.places import Names, Place, squash
 from planner.site.polygon import area_m2
@@ -105,6 +105,7 @@ class KnownPlaces:
         self.version = 0
         """Rises with every change."""
         self._listeners: list[Callable[[], None]] = []
+        self._skills: tuple[Skill, ...] = ()
         self._kept: tuple[TaughtPlace, ...] = store.load() if store is not None else ()
         self._judge()
 
@@ -146,6 +147,15 @@ class KnownPlaces:
         """Keep what people drew on the map. Raises OSError; nothing changed then."""
         self.site = await self.drawn.keep(marks)
         self._judge()
+
+    def keep_skills(self, skills: tuple[Skill, ...]) -> None:
+        """Have sentences call these skills from now on, and no others."""
+        if skills == self._skills:
+            return
+        self._skills = skills
+        self._judge()
+        for told in self._listeners:
+            told()
 
     def listen(self, told: Callable[[], None]) -> None:
         """Have something called after each change."""
@@ -233,6 +243,12 @@ class KnownPlaces:
                 good.append(kept.as_place())
         self._shown, self._places = tuple(shown), (*self.site.places, *good)
         self._facts = facts_of(self.site, tuple(good), self._radius_m)
+        if self._skills:
+            from planner.language.templates.skills import with_skills
+
+            named = with_skills(self._facts.names, self._skills)
+            templates = named.skill_templates
+            self._facts = replace(self._facts, skills=self._skills, skill_templates=templates)
         from planner.language.readers import learn_names  # routes know these places, and no words
 
         learn_names(self._facts.names)
@@ -259,7 +275,9 @@ class KnownPlaces:
 
     def _check_names(self, lesson: Lesson, names: Names, before: TaughtPlace | None) -> None:
         others = tuple(p for p in self._places if before is None or p.id != before.id)
-        vocabulary = vocabulary_of(self.site, tuple(p for p in others if p not in self.site.places))
+        taught = tuple(p for p in others if p not in self.site.places)
+        called = {"skills": self._skills, "skill_templates": self._facts.skill_templates}
+        vocabulary = vocabulary_of(self.site, taught).model_copy(update=called)
         asked = {names.en, names.zh}
         if lesson.place_id is not None:
             if self.site.place(lesson.place_id) is not None:

@@ -7,7 +7,7 @@ from functools import cached_property
 
 from maps.growing_map import GROWING_MAP
 from planner.language.catalogue import place_name
-from planner.plan import Bilingual, Entry, Vocabulary
+from planner.plan import Bilingual, Entry, Skill, Vocabulary
 from planner.site.places import Place
 from planner.site.polygon import area_m2, contains
 from planner.site.site import Site
@@ -44,6 +44,9 @@ class SiteView:
     """Says where a robot may stand at a side of something; None: nobody knows."""
     sentences: str = ""
     """Templates of sentences by the site's owner."""
+    skills: tuple[Skill, ...] = ()
+    skill_templates: str = ""
+    """The sentences that call them."""
 
     @property
     def radius_m(self) -> float:
@@ -54,7 +57,10 @@ class SiteView:
     def names(self) -> Vocabulary:
         """Return the names that people and plans use: one value a site, for all readers."""
         entries = tuple(map(self._entry, self.targets.values()))
-        return Vocabulary(entries=entries, sentences=self.sentences)
+        return Vocabulary(
+            entries=entries, sentences=self.sentences,
+            skills=self.skills, skill_templates=self.skill_templates,
+        )  # fmt: skip
 
     def _entry(self, target: Target) -> Entry:
         at = target.pose

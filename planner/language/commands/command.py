@@ -23,6 +23,13 @@ class Forget:
 
 
 @dataclass(frozen=True, slots=True)
+class KeepSkill:
+    """Keep the steps of the order before under this name, as a skill."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class TeachFact:
     """Remember what a person says, word for word."""
 
@@ -110,6 +117,7 @@ class Faster:
 Intent = (
     Remember
     | Forget
+    | KeepSkill
     | TeachFact
     | ForgetFacts
     | HereCommand

@@ -233,6 +233,10 @@ REMEMBER = re.compile(
     rf"|(?:let's |let us )?(?:call|name|label) (?:{_SPOT}) (?P<b>.+)"
     rf"|(?:remember (?:that )?)?(?:{_SPOT}) is (?:called|named) (?P<c>.+)"
 )
+KEEP_SKILL = re.compile(
+    r"(?:remember|save|store|keep|learn|record) (?:that|what you (?:just )?did"
+    r"|(?:this|that|the last) (?:order|job|task|routine)) as (?P<a>.+)"
+)
 FORGET = re.compile(
     r"(?:forget|delete|remove)(?: about)? (?:the |my )?(?:place|spot|location)"
     r"(?: (?:called|named))? (?P<a>.+)"

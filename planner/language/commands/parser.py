@@ -24,6 +24,7 @@ from planner.language.commands.command import (
     Forget,
     HereCommand,
     Intent,
+    KeepSkill,
     OutcomeCommand,
     PauseCommand,
     Remember,
@@ -210,7 +211,10 @@ def _simple(folded: str, grammar: ModuleType, *, asks: bool) -> Intent | None:
 
 def _read_lesson(said: FoldedText, grammar: ModuleType) -> Intent | None:
     """Read the name that is to be remembered or forgotten, or where the robot is said to be."""
-    kinds: tuple[tuple[str, type[Remember] | type[Forget] | type[HereCommand]], ...] = (
+    kinds: tuple[
+        tuple[str, type[KeepSkill] | type[Remember] | type[Forget] | type[HereCommand]], ...
+    ] = (
+        ("KEEP_SKILL", KeepSkill),
         ("REMEMBER", Remember),
         ("FORGET", Forget),
         ("HERE", HereCommand),

@@ -132,6 +132,13 @@ def _read_exactly(
     return compose([steps], marked.restore(marked.text), setting)
 
 
+def means_already(text: str, vocabulary: Vocabulary) -> bool:
+    """Tell whether a sentence is an order whose every word is read, or one that is answered."""
+    if _read_exactly(" ".join(text.split()), vocabulary, NOWHERE) is not None:
+        return True
+    return isinstance(plan(text, vocabulary), AnswerPlan)
+
+
 def _is_round(plan: StepPlan) -> bool:
     """Tell whether a plan begins with steps that are done so many times."""
     return isinstance(plan.steps[0], Repeat)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from planner.language.templates import driving, people, sights
+from planner.language.templates import driving, people, sights, skills
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -72,4 +72,5 @@ BUILDERS: Mapping[str, Callable[[TemplateFind, Reading], Meaning | None]] = {
     "tell_back": sights.tell_back,
     "seek": sights.seek,
     "next_thing": sights.next_thing,
+    "use_skill": skills.use_skill,
 }

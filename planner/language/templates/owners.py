@@ -35,5 +35,11 @@ def read_owners_templates(text: str) -> TemplateSet:
     return made
 
 
+@lru_cache(maxsize=64)
+def read_skill_templates(text: str) -> TemplateSet:
+    """Return the templates by which skills are called. Raises TemplateError."""
+    return read_templates(text, load_templates())
+
+
 def _row(slots: set[str]) -> str:
     return ", ".join(sorted(slots))

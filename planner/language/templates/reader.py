@@ -22,7 +22,7 @@ from planner.language.semantic_parser.amounts import find_amounts
 from planner.language.semantic_parser.plan_grammar import SlotKind
 from planner.language.templates.automaton import Units
 from planner.language.templates.expressions import TOKEN
-from planner.language.templates.owners import read_owners_templates
+from planner.language.templates.owners import read_owners_templates, read_skill_templates
 from planner.language.templates.template_file import (
     SentenceTemplate,
     TemplateFind,
@@ -96,7 +96,7 @@ def cut_clause(text: str, templates: TemplateSet) -> ClauseUnits:
 
 @lru_cache(maxsize=256)
 def find_templates(
-    text: str, language: Language, owners: str = ""
+    text: str, language: Language, owners: str = "", skills: str = ""
 ) -> tuple[tuple[SentenceTemplate, TemplateFind], ...]:
     """Return the templates that read a marked clause, and what each found, the surest first.
 
@@ -104,12 +104,20 @@ def find_templates(
         text: of the clause.
         language: of the templates.
         owners: the templates of the site's owner; of two that are as sure theirs comes first.
+        skills: the sentences that call the owner's skills, likewise.
     """
+    found = [] if not skills else [*_find_in(read_skill_templates(skills), text, language)]
+    if owners:
+        found += _find_in(read_owners_templates(owners), text, language)
     ours = _find_in(TEMPLATES, text, language)
-    if not owners:
-        return ours
-    both = (*_find_in(read_owners_templates(owners), text, language), *ours)
-    return tuple(sorted(both, key=lambda hit: hit[1].free_words))
+    return tuple(sorted((*found, *ours), key=lambda hit: hit[1].free_words)) if found else ours
+
+
+def _find(
+    clause: str, language: Language, reading: Reading
+) -> tuple[tuple[SentenceTemplate, TemplateFind], ...]:
+    names = reading.vocabulary
+    return find_templates(clause, language, names.sentences, names.skill_templates)
 
 
 def _find_in(
@@ -121,9 +129,10 @@ def _find_in(
         template = templates.of_sentence[language][match.template]
         slots = {name: clause.between(*span) for name, span in match.slots.items()}
         amounts = {
-            name: clause.amounts[name, *span]
+            name: clause.amounts[kind, *span]
             for name, span in match.slots.items()
-            if (name, *span) in clause.amounts
+            for kind in dict.fromkeys(("duration", name))  # a slot is called as its parameter is
+            if (kind, *span) in clause.amounts
         }
         hits.append(
             (
@@ -157,7 +166,7 @@ class TemplateStage:
 
     def read(self, clause: str, reading: Reading) -> Meaning | None:
         """Return the meaning of a clause; None where no template of these reads it."""
-        for row, found in find_templates(clause, self.language, reading.vocabulary.sentences):
+        for row, found in _find(clause, self.language, reading):
             if row.stage not in self.stages:
                 continue
             loose = _LOOSE_END.search(found["who"]) is not None
@@ -178,7 +187,7 @@ def read_exactly(clause: str, reading: Reading, runnable: frozenset[str]) -> Ste
         runnable: the kinds of steps that the robot can do.
     """
     language = Language.ZH if has_chinese(clause) else Language.EN
-    for row, found in find_templates(clause, language, reading.vocabulary.sentences):
+    for row, found in _find(clause, language, reading):
         if found.free_words or "times" in found.amounts:  # rounds are counted by the chain's reader
             return None
         meaning = _builders()[row.form](found, reading)
@@ -189,4 +198,4 @@ def read_exactly(clause: str, reading: Reading, runnable: frozenset[str]) -> Ste
     return None
 
 
-_MOTION = frozenset({"go_to", "come_back", "return_home", "turn", "move", "wait"})
+_MOTION = frozenset({"go_to", "come_back", "return_home", "turn", "move", "wait", "use_skill"})

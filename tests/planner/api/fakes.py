@@ -34,6 +34,7 @@ from planner.plan import Goal, GoalState, Language, Means, Step
 from planner.rehearsal import Rehearser
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
+from planner.skill_files.folder import SkillFolder
 from planner.state_database import StateDatabase
 from planner.voice import Recognition, Sound, StopListener, VoiceAbilities, VoiceFailure
 from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
@@ -387,6 +388,7 @@ class FakeServices:
         self.recollection = Recollection(MemoryStore(StateDatabase(HOME)))
         self.people = People(StateDatabase(HOME))
         self.fences = FenceProposals.in_home(HOME)
+        self.skills = SkillFolder(HOME, lambda: self.memory.vocabulary)
         self.rehearser = Rehearser(
             self.memory,
             RobotDescription(),
