@@ -92,8 +92,9 @@ check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, 
 fmt: $(DEV) ## format the code and mend what the linter can mend
 	@$(BIN)/ruff format . && $(BIN)/ruff check --fix .
 
-docs: $(DEV) ## write the generated files anew: wire.md, safety.md, sites, openapi.json
+docs: $(DEV) ## write the generated files anew (wire.md, openapi.json, AGENTS.md …), then build the docs as a site
 	@$(BIN)/python scripts/generated.py --write
+	@$(BIN)/python -m scripts.docs_site
 
 bench: $(RUNTIME) ## measure and print a table (at most 10 min)
 	@exec $(BIN)/python -m tools.bench $(ARGS)

@@ -76,6 +76,7 @@ SEARCHES = (
     "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”",
 )
 SET_UP = "set-up: no bridge, nothing drives; try the robot on that page", "设置模式：请在网页上测试"
+NO_LIDAR = "; no [lidar]: it will stand (docs/lidars.md)", "；没有 [lidar]：机器人不会行驶"
 UNREACHED = "not reached yet: dialled until it answers", "尚未连上机器人：会一直重试，网页可用"
 
 

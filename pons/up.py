@@ -23,6 +23,7 @@ from pons.kept_sockets import KeptSockets
 from pons.key import offer_key
 from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
 from pons.launch_words import (
+    NO_LIDAR,
     SEARCHES,
     SET_UP,
     UNREACHED,
@@ -234,13 +235,14 @@ def _is_of_ros2(settings: LaunchSettings, robot: RobotDescription) -> bool:
 
 
 def describe_base(settings: LaunchSettings, robot: RobotDescription) -> str:
-    """Say whether metal is driven: a robot.toml that lost its [drive] is a simulated one."""
+    """Say what is driven: a robot.toml that lost its [drive] is a simulated robot."""
     drive = robot.drive
     if drive.virtual:
         return "simulated"
     if settings.twin:
         return f"{drive.kind}, played by its twin"
-    return drive.kind if drive.port is None else f"{drive.kind} at {drive.port}"
+    base = drive.kind if drive.port is None else f"{drive.kind} at {drive.port}"
+    return base + (pick(*NO_LIDAR) if robot.lidar.is_simulated else "")
 
 
 def describe(status: int) -> str:

@@ -49,6 +49,7 @@ STEPS = (
     Step("page", (str(ROOT / "scripts" / "page.sh"), "check"), beside=True),
     Step("imports", (str(BIN / "lint-imports"),), beside=True),
     Step("generated", (sys.executable, "scripts/generated.py", "--check"), beside=True),
+    Step("docs", (sys.executable, "-m", "scripts.docs_site"), beside=True),
     Step("test", ("make", "test")),
 )
 

@@ -35,6 +35,8 @@ GENERATORS = (
     Generator("scripts.page_words", "web/src/i18n/"),
     Generator("scripts.locked_extra", "pyproject.toml, extra locked"),
     Generator("scripts.sbom", "sbom.cdx.json, docs/licences.md"),
+    Generator("scripts.reference", "docs/http.md, robot-toml.md, settings-toml.md, codes.md, adr/"),
+    Generator("scripts.assistant_pages", "AGENTS.md, llms.txt"),
 )
 
 

@@ -15,11 +15,13 @@ if TYPE_CHECKING:
 LIDAR_MODELS: Mapping[str, tuple[str, ...]] = {
     "sim": (),
     "ros2": (),
+    "ld08": (),
     "ld19": (),
     "rplidar": ("a1", "a2", "a2m12", "a3", "c1", "s1", "s2"),
     "ydlidar": ("x2", "x4", "g2", "g4", "tg15"),
 }
-"""The kinds, and the models among which each must choose; LD06, LD19 and STL-19P speak alike."""
+"""The kinds, and the models among which each must choose; LD06, LD19 and STL-19P speak alike, and
+TurtleBot 3's LDS-02 is an LD08."""
 SIMULATED = "sim"
 WITHOUT_LINE = (SIMULATED, "ros2")
 """Kinds that no process of ours reads at a serial port."""
@@ -28,7 +30,7 @@ WITHOUT_LINE = (SIMULATED, "ros2")
 class LidarConfig(Record):
     """Place the planar lidar on the robot and state its range."""
 
-    kind: Literal["sim", "ros2", "ld19", "rplidar", "ydlidar"] = "sim"
+    kind: Literal["sim", "ros2", "ld08", "ld19", "rplidar", "ydlidar"] = "sim"
     """``sim``: the simulator casts its rays; ``ros2``: a topic (docs/ros2.md); the others are read
     at ``port`` (docs/lidars.md)."""
     model: Annotated[str, Field(pattern=r"^[a-z0-9]{1,16}$")] | None = None

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from devices import PortTrouble, SerialPort, pons_mcu, ros_arduino, turtlebot3, waveshare
 from devices.port_probe import PortAnswer
-from sensors.lidar import ldrobot, rplidar, ydlidar
+from sensors.lidar import ld08, ldrobot, rplidar, ydlidar
 from sensors.lidar.kinds import recognize
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 PROBES: Final[tuple[PortProbe, ...]] = (
     *pons_mcu.PROBES, *waveshare.PROBES, *ros_arduino.PROBES, *turtlebot3.PROBES,
-    *ldrobot.PROBES, *rplidar.PROBES, *ydlidar.PROBES,
+    *ld08.PROBES, *ldrobot.PROBES, *rplidar.PROBES, *ydlidar.PROBES,
 )  # fmt: skip
 BOOT_S: Final = 2.5
 """The first listening: opening a port resets most Arduinos, whose loader then waits so long."""

@@ -49,6 +49,7 @@ class LdRobotDecoder:
     """Turn the sensor's bytes into beams; what does not check is dropped and counted."""
 
     baud = BAUD
+    points_per_s = POINTS_PER_S
     max_gap_deg = MAX_GAP_DEG
     opening: tuple[bytes, ...] = ()
     closing: tuple[bytes, ...] = ()
@@ -95,8 +96,8 @@ class LdRobotDecoder:
         distances, (end, time_ms, _) = rest[: 2 * BEAMS : 2], rest[2 * BEAMS :]
         swept_deg = ((end - start) % 36_000) / 100.0
         step_deg = swept_deg / (BEAMS - 1)
-        period_s = step_deg / speed_dps if speed_dps else 1.0 / POINTS_PER_S
-        last_s = self._clock.note(self._time.unwrap(time_ms) / 1000.0, arrival_s)
+        period_s = step_deg / speed_dps if speed_dps else 1.0 / self.points_per_s
+        last_s = self._clock.note(self._sensor_s(time_ms), arrival_s)
         first_deg = start / 100.0
         angles_deg = tuple((first_deg + index * step_deg) % 360.0 for index in range(BEAMS))
         return Beams(
@@ -107,6 +108,9 @@ class LdRobotDecoder:
             period_s=period_s,
         )
 
+    def _sensor_s(self, time_ms: int) -> float:
+        return self._time.unwrap(time_ms) / 1000.0
+
 
 _ENOUGH_FRAMES = 5
 """Whose check of 8 bits all pass by chance: odds of 2^-40."""
@@ -114,6 +118,11 @@ _ENOUGH_FRAMES = 5
 
 def recognise(data: bytes) -> PortAnswer | None:
     """Return what a sensor of this family says of itself; it speaks unasked."""
+    return describe(data, "lidar LD06, LD19 or STL-19P")
+
+
+def describe(data: bytes, name: str) -> PortAnswer | None:
+    """Return a sensor's name with its speed, where enough of its frames stand in some bytes."""
     decoder = LdRobotDecoder()
     decoder.feed(data, 0.0)
     if decoder.frames < _ENOUGH_FRAMES:
@@ -121,7 +130,7 @@ def recognise(data: bytes) -> PortAnswer | None:
     start = data.rfind(HEAD, 0, len(data) - FRAME_BYTES)
     speed_degps = struct.unpack_from("<H", data, start + len(HEAD))[0]
     turns = f", {speed_degps / 360:.1f} turns/s" if speed_degps < _FASTEST_DEGPS else ""
-    return PortAnswer(f"lidar LD06, LD19 or STL-19P{turns}")
+    return PortAnswer(f"{name}{turns}")
 
 
 _FASTEST_DEGPS = 10_000

@@ -16,13 +16,14 @@ import numpy as np
 
 from sim.sensor_channel import DELAY_TICKS, OPEN_TICKS, SHUT_TICKS, Trouble
 from sim.twin.lidar_formats import (
+    SHIFTS,
     BeamFormat,
+    Ld08Format,
     LdFormat,
     RpDenseFormat,
     RpExpressFormat,
     RpStandardFormat,
     YdFormat,
-    triangulated_deg,
 )
 from sim.twin.line import TwinLine
 from wire import ConfigError
@@ -60,6 +61,7 @@ class TwinLidarModel:
 
 
 LIDAR_TWINS: Mapping[tuple[str, str | None], TwinLidarModel] = {
+    ("ld08", None): TwinLidarModel(115_200, 2_300.0, "ld08", talks=True),
     ("ld19", None): TwinLidarModel(230_400, 4_500.0, "ld", talks=True),
     ("rplidar", "a1"): TwinLidarModel(115_200, 2_000.0, "rp81", number=0x18),
     ("rplidar", "a2"): TwinLidarModel(115_200, 4_000.0, "rp82", number=0x28),
@@ -145,10 +147,11 @@ class LidarFirmware:
     def _cast(self, heads_deg: NDArray[np.float64], look: Look) -> tuple[float | None, ...]:
         """Cast the beams; one that triangulates looks beside its head, by what it sees there."""
         ranges = look(self._sign * np.radians(heads_deg))
-        if self.model.form not in ("yd", "yd3"):
+        shift = SHIFTS.get(self.model.form)
+        if shift is None:
             return ranges
         for _ in range(2):
-            shifts_deg = np.array([triangulated_deg(far or 0.0) for far in ranges])
+            shifts_deg = np.array([shift(far or 0.0) for far in ranges])
             ranges = look(self._sign * np.radians(heads_deg + shifts_deg))
         return ranges
 
@@ -172,7 +175,7 @@ class LidarFirmware:
         return said
 
     def _obey(self, kind: int, body: bytes, now_s: float) -> bytes:
-        if now_s < self._quiet_until_s or self.family == "ld19" or self._is_one_way():
+        if now_s < self._quiet_until_s or self._is_one_way():
             return b""
         stop, scans = (0x25, (0x20, 0x82)) if self.family == "rplidar" else (0x65, (0x60,))
         if kind == stop:
@@ -192,12 +195,14 @@ class LidarFirmware:
         return b""
 
     def _is_one_way(self) -> bool:
-        return self.family == "ydlidar" and self.model.talks
+        return self.family != "rplidar" and self.model.talks
 
     def _form(self) -> BeamFormat:
         form = self.model.form
         if form == "ld":
             return LdFormat(360.0 * self._turn_hz)
+        if form == "ld08":
+            return Ld08Format(360.0 * self._turn_hz)
         if form == "rp81":
             return RpStandardFormat()
         if form == "rp82":

@@ -1,14 +1,14 @@
 """Write beams as the bytes that lidars send, from their manuals and not from our decoders.
 
-LDRobot: development manual of the LD19. RPLidar: Slamtec's interface protocol v2. YDLidar: the
-development manuals of X4 and G2. Angles are the sensor's own, in degrees, growing clockwise;
-distances in metres, 0 where nothing came back.
+LDRobot: development manual of the LD19, ROBOTIS' e-Manual of the LDS-02. RPLidar: Slamtec's
+interface protocol v2. YDLidar: the development manuals of X4 and G2. Angles are the sensor's own,
+in degrees, growing clockwise; distances in metres, 0 where nothing came back.
 """
 
 from __future__ import annotations
 
 import struct
-from math import atan, degrees
+from math import atan, degrees, sqrt
 from typing import Protocol
 
 _BEAM = tuple[float, float]
@@ -53,6 +53,30 @@ class LdFormat:
             frame += struct.pack("<HB", _units(distance, 0.001), 200 if distance else 0)
         frame += struct.pack("<HH", _hundredths(beams[-1][0]), int(taken_s * 1000.0) % 30_000)
         return bytes(frame) + bytes((crc_4d(frame),))
+
+
+class Ld08Format(LdFormat):
+    """The same frames with the distance along the lens's own tilted ray."""
+
+    def add(self, angle_deg: float, distance_m: float, taken_s: float) -> bytes:
+        """Take one beam; return the frame that it completes, or nothing."""
+        return super().add(angle_deg, ld08_raw_mm(distance_m) / 1000.0, taken_s)
+
+
+def ld08_raw_mm(distance_m: float) -> float:
+    """Return what an LD08 measures of a thing so far from its axis: the root of its geometry."""
+    far_mm = distance_m * 1000.0
+    if not far_mm > 30.0:  # nearer than the lens looks
+        return 0.0
+    square, half = 1.0 + 0.11923**2, 5.9 - 0.11923 * 20.14
+    rest = 5.9**2 + 20.14**2 - far_mm**2
+    return (sqrt(half**2 - square * rest) - half) / square
+
+
+def ld08_shift_deg(distance_m: float) -> float:
+    """Return how far an LD08 looks beside where its head stands."""
+    raw_mm = ld08_raw_mm(distance_m)
+    return -degrees(atan((raw_mm * 0.11923 - 20.14) / (raw_mm + 5.9))) if raw_mm else 0.0
 
 
 def _hundredths(angle_deg: float) -> int:
@@ -186,3 +210,7 @@ def triangulated_deg(distance_m: float) -> float:
         return 0.0
     far_mm = distance_m * 1000.0
     return degrees(atan(21.8 * (155.3 - far_mm) / (155.3 * far_mm)))
+
+
+SHIFTS = {"yd": triangulated_deg, "yd3": triangulated_deg, "ld08": ld08_shift_deg}
+"""By the form of those that triangulate."""

@@ -20,6 +20,7 @@ from pons.up import READY_LIMIT_S, SEARCH_TOLD_S, UNREACHED_TOLD_S, Supervisor, 
 from tests.planner.api.serving import served
 from tests.pons.test_readiness import starting
 from wire import RobotDescription, load_robot
+from wire.lidar_config import LidarConfig
 
 HOUR_S = 3600.0
 ROS2 = "ros2_diff_drive.toml"
@@ -101,7 +102,10 @@ def test_a_person_reads_whether_metal_is_driven(tmp_path: Path) -> None:
     lost.write_text('id = "mine"\n[base]\nwheel_radius_m = 0.1\n')
     mcu, ros2 = (load_robot(CHECKOUT / "robots" / name) for name in ("pons_mcu.toml", ROS2))
     assert describe_base(plain, load_robot(lost)) == "simulated"
-    assert describe_base(plain, mcu) == "pons_mcu at /dev/ttyACM0"
+    blind = "; no [lidar]: it will stand (docs/lidars.md)"
+    assert describe_base(plain, mcu) == f"pons_mcu at /dev/ttyACM0{blind}"
+    seeing = mcu.model_copy(update={"lidar": LidarConfig(kind="ld19", port="/dev/y")})
+    assert describe_base(plain, seeing) == "pons_mcu at /dev/ttyACM0"
     assert describe_base(twin, mcu) == "pons_mcu, played by its twin"
     assert describe_base(plain, ros2) == "ros2"
 

@@ -184,7 +184,7 @@ def test_a_lidar_of_another_kind_is_named(key: tuple[str, str | None]) -> None:
     data = b"".join(firmware.tick(b"", 1.0 + 0.01 * k, room) for k in range(1, 60))[50:2000]
     assert recognize(data) == key[0]
     kinds = {"ld19": None, "rplidar": "a1", "ydlidar": "x2"}
-    other = next(kind for kind in kinds if kind != key[0])
+    other = next(kind for kind in kinds if kind[:2] != key[0][:2])  # an LD08's frames are an LD19's
     bench = Bench(config(other, kinds[other]))
     for _ in range(40):
         bench.now_s += 0.05
