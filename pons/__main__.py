@@ -224,7 +224,7 @@ def _help(said: argparse.Namespace) -> int:
     return main([*([said.about] if said.about else []), "--help"])
 
 
-_BARE_TOOLS = frozenset({"tls", "key"})
+_BARE_TOOLS = frozenset({"tls", "key", "mqtt"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
 _PLANNERS = frozenset({"places", "people", "orders", "replies", "goals", "log"})
 _TOOLS = _BARE_TOOLS | _PLANNERS | {

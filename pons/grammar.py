@@ -50,7 +50,7 @@ def parser() -> CommandParser:
         add_command(words, word).add_argument("--json", action="store_true", help="as JSON")
     for word in ("cancel", "pause", "resume"):
         add_command(words, word).add_argument("goal", nargs="?", metavar="GOAL", help="its id")
-    for word in ("arm", "reset", "tls"):
+    for word in ("arm", "reset", "tls", "mqtt"):
         add_command(words, word)
     _doctor(words)
     _calibrate(words)

@@ -14,15 +14,16 @@ PACKAGE = "pons-robot"
 def version_line() -> str:
     """Return the line for a person and a bug report."""
     commit = _commit()
-    return f"pons {_version()}" + (f" ({commit})" if commit else "")
+    return f"pons {version()}" + (f" ({commit})" if commit else "")
 
 
-def _version() -> str:
+def version() -> str:
+    """Return the version alone."""
     if not IS_INSTALLED:  # a checkout may have been installed at another version
         return str(tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"])
-    from importlib.metadata import version
+    from importlib import metadata
 
-    return version(PACKAGE)
+    return metadata.version(PACKAGE)
 
 
 def _commit() -> str:
