@@ -159,7 +159,7 @@ def test_a_stop_behind_500_garbled_and_retained_messages_is_the_only_thing_asked
     async def story(ears: Ears) -> None:
         for number in range(500):
             word = ("command", "sentence", "segments")[number % 3]
-            payload = (b"\xff\xfe" * 40, b"start", b'["kitchen"]', b"go to the kitchen", b"[[[")
+            payload = (b"\xff\xfe" * 40, b"start", b'["kitchen"]', b"go home", b'{"v_mps": 1}')
             retained = number % 5 in (1, 2, 3)  # what would be an order comes retained
             await ears.client.publish(
                 f"pons/{ROBOT}/{word}", payload[number % 5], qos=0, retain=retained
