@@ -24,7 +24,7 @@ from pons.http import PlannerDown, PlannerProblem, fetch
 from pons.mqtt import home_state, planner_orders
 from pons.mqtt.direct_halt import DirectHalt
 from pons.mqtt.discovery import OFFLINE, ONLINE, discovery, topics_of
-from pons.mqtt.orders import TOPICS, HomeOrder, OrderGate, OrderRefusal, read_order
+from pons.mqtt.orders import TOPICS, HomeOrder, MessageRefusal, OrderGate, read_order
 from pons.mqtt.planner_watch import PlannerView, PlannerWatch
 from pons.version import version
 from processes.backoff import Backoff
@@ -136,7 +136,7 @@ class HomeGateway:
         rooms = home_state.segments(self._view.places, self._language)
         word = topic.rpartition("/")[2]
         order = read_order(word, message.payload, retained=bool(message.retain), rooms=rooms)
-        if isinstance(order, OrderRefusal):
+        if isinstance(order, MessageRefusal):
             self._refuse(order.code, order.detail)
         elif order.kind == "stop":
             self._stops += 1

@@ -58,7 +58,9 @@ def sensors(robot: Json, goals: list[Json], places: list[Json], language: str) -
         "battery": None if battery is None else round(100.0 * battery),
         "place": None if room is None else name_of(room, language),
         "activity": _short(_activity(status, goals, language)),
-        "answer": None if ended is None else _short(told(ended, language) or ended["state"]),
+        "answer": None
+        if ended is None
+        else _short(outcome_sentence(ended, language) or ended["state"]),
     }
 
 
@@ -78,14 +80,14 @@ def event(goal: Json, language: str) -> Json | None:
         "event_type": state,
         "goal": goal["id"],
         "sentence": goal["text"],
-        "message": told(goal, language),
+        "message": outcome_sentence(goal, language),
         "code": outcome.get("code") or goal.get("reason"),
         "seconds": outcome.get("seconds"),
         "metres": outcome.get("metres"),
     }
 
 
-def told(goal: Json, language: str) -> str:
+def outcome_sentence(goal: Json, language: str) -> str:
     """Return the sentence of a goal's outcome, or of its question, in a language."""
     said = (goal.get("outcome") or {}).get("message") or (goal.get("plan") or {}).get("text")
     return str((said or {}).get(language) or "")
@@ -113,7 +115,7 @@ def _activity(status: Json, goals: list[Json], language: str) -> str:
     if (running := _first(goals, _GOING)) is not None:
         return str(running["text"])
     if (asking := _first(goals, _WAITING)) is not None:
-        return words["asks"].format(told(asking, language) or asking["text"])
+        return words["asks"].format(outcome_sentence(asking, language) or asking["text"])
     if (paused := _first(goals, ("paused",))) is not None:
         return words["paused"].format(paused["text"])
     if status.get("held"):

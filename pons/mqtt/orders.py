@@ -46,7 +46,7 @@ class HomeOrder:
 
 
 @dataclass(frozen=True, slots=True)
-class OrderRefusal:
+class MessageRefusal:
     """Hold why a message is no order: a stable code, and what came."""
 
     code: str
@@ -55,7 +55,7 @@ class OrderRefusal:
 
 def read_order(
     topic: str, payload: bytes, *, retained: bool, rooms: Iterable[str]
-) -> HomeOrder | OrderRefusal:
+) -> HomeOrder | MessageRefusal:
     """Return what a message asks for.
 
     Args:
@@ -68,10 +68,10 @@ def read_order(
         return HomeOrder("stop")
     text = _text(payload)
     if text is None:
-        return OrderRefusal("mqtt_unreadable", f"{len(payload)} bytes on {topic}, no short UTF-8")
+        return MessageRefusal("mqtt_unreadable", f"{len(payload)} bytes on {topic}, no short UTF-8")
     order = _order(topic, text, frozenset(rooms))
     if retained and isinstance(order, HomeOrder) and order.kind != "stop":
-        return OrderRefusal("mqtt_retained", f"{topic} came retained; send it without retain")
+        return MessageRefusal("mqtt_retained", f"{topic} came retained; send it without retain")
     return order
 
 
@@ -83,38 +83,38 @@ def _text(payload: bytes) -> str | None:
     return text if text and text.isprintable() else None
 
 
-def _order(topic: str, text: str, rooms: frozenset[str]) -> HomeOrder | OrderRefusal:
+def _order(topic: str, text: str, rooms: frozenset[str]) -> HomeOrder | MessageRefusal:
     if topic == COMMAND:
         kind = _COMMANDS.get(text)
         if kind is not None:
             return HomeOrder(kind)
         known = ", ".join(_COMMANDS)
-        return OrderRefusal("mqtt_unknown_command", f"{text[:80]!r}; known: {known}")
+        return MessageRefusal("mqtt_unknown_command", f"{text[:80]!r}; known: {known}")
     if topic == SEGMENTS:
         return _rooms(text, rooms)
     return _sentence(text)
 
 
-def _rooms(text: str, rooms: frozenset[str]) -> HomeOrder | OrderRefusal:
+def _rooms(text: str, rooms: frozenset[str]) -> HomeOrder | MessageRefusal:
     given = _json(text)
     if not isinstance(given, list) or not 1 <= len(given) <= MAX_ROOMS:
         detail = f"expected a JSON list of 1 to {MAX_ROOMS} room ids, got {text[:80]!r}"
-        return OrderRefusal("mqtt_bad_rooms", detail)
+        return MessageRefusal("mqtt_bad_rooms", detail)
     strange = [str(one)[:40] for one in given if not isinstance(one, str) or one not in rooms]
     if strange:
         known = ", ".join(sorted(rooms))
-        return OrderRefusal("mqtt_unknown_room", f"{', '.join(strange)}; known: {known}")
+        return MessageRefusal("mqtt_unknown_room", f"{', '.join(strange)}; known: {known}")
     return HomeOrder("rooms", rooms=tuple(dict.fromkeys(given)))
 
 
-def _sentence(text: str) -> HomeOrder | OrderRefusal:
+def _sentence(text: str) -> HomeOrder | MessageRefusal:
     """Return a sentence; Home Assistant sends ``{"command": …}`` where parameters come with it."""
     if text.startswith("{"):
         given = _json(text)
         said = given.get("command") if isinstance(given, dict) and len(given) == 1 else None
         if not isinstance(said, str) or not said.strip():
             detail = f'expected a sentence or {{"command": sentence}}, got {text[:80]!r}'
-            return OrderRefusal("mqtt_bad_sentence", detail)
+            return MessageRefusal("mqtt_bad_sentence", detail)
         text = said.strip()
     if read_stop(text) is StopReading.ORDER:
         return HomeOrder("stop")

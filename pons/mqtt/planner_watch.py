@@ -1,46 +1,28 @@
 """Keep the planner's newest word: the robot, its goals and places, by the event socket.
 
-Owns the socket and the view that it builds; knows no broker. A planner that is away is dialled
-again for ever.
+Owns the view that it builds of the frames; knows no broker.
 """
 
 from __future__ import annotations
 
 import asyncio
-import base64
-import json
-import logging
-import os
-import ssl
 import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from websockets.asyncio.client import connect
-from websockets.exceptions import WebSocketException
-
-from pons.http import AUTHORITY, PlannerDown, PlannerProblem, call
-from processes.backoff import Backoff
+from pons.event_socket import follow_events
+from pons.http import call
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pons.settings import LaunchSettings
 
-log = logging.getLogger("home")
-
 Json = dict[str, Any]
 
 MOST_GOALS = 100
 MOST_EVENTS = 100
 """Events that wait for a broker that is away; the oldest goes first."""
-SILENT_S = 5.0
-"""The planner says how the robot is at least five times a second."""
-_FIRST_S, _LONGEST_S = 0.5, 5.0
-_MAX_FRAME_BYTES = 4_000_000
-_HEAD = 60
-"""A frame's kind stands so early; a scan is not worth parsing."""
-_KINDS = ('"kind":"snapshot"', '"kind":"robot"', '"kind":"goal"', '"kind":"places"')
 _OPEN = frozenset(
     {"queued", "planning", "needs_clarification", "awaiting_confirmation", "running", "paused"}
 )
@@ -105,60 +87,16 @@ class PlannerWatch:
 
     async def run(self) -> None:
         """Follow for ever; a planner that is away is no error."""
-        backoff, told = Backoff(_FIRST_S, _LONGEST_S), ""
-        while True:
-            try:
-                await self._follow(backoff)
-            except (OSError, TimeoutError, WebSocketException, PlannerDown, PlannerProblem) as why:
-                if (trouble := f"planner_down: {self._settings.url}: {why}") != told:
-                    told = trouble
-                    log.warning("%s", trouble)
-            self._view.is_there = False
-            self._changed()
-            await asyncio.sleep(backoff.pause_after())
+        kinds = ("snapshot", "robot", "goal", "places")
+        await follow_events(self._settings, kinds, self._take, self._lose)
 
-    async def _follow(self, backoff: Backoff) -> None:
-        url = self._settings.url.replace("http", "ws", 1) + "/v1/events"
-        async with connect(
-            url,
-            ssl=_trusted(self._settings),
-            subprotocols=_subprotocols(),  # type: ignore[arg-type]  # plain words are enough
-            max_size=_MAX_FRAME_BYTES,
-            max_queue=4,
-            compression=None,
-            open_timeout=SILENT_S,
-            close_timeout=1.0,
-            proxy=None,
-        ) as socket:
-            while True:
-                async with asyncio.timeout(SILENT_S):
-                    text = await socket.recv()
-                if not isinstance(text, str) or not any(k in text[:_HEAD] for k in _KINDS):
-                    continue
-                if self._view.take(json.loads(text), time.monotonic()):
-                    await self._read_places()
-                    backoff.reset()
-                    self._view.is_there = True
-                self._changed()
+    async def _take(self, frame: Json) -> None:
+        if self._view.take(frame, time.monotonic()):
+            told = await asyncio.to_thread(call, self._settings, "GET", "/v1/places")
+            self._view.places, self._view.home = told["places"], told["home"]
+            self._view.is_there = True
+        self._changed()
 
-    async def _read_places(self) -> None:
-        told = await asyncio.to_thread(call, self._settings, "GET", "/v1/places")
-        self._view.places, self._view.home = told["places"], told["home"]
-
-
-def _trusted(settings: LaunchSettings) -> ssl.SSLContext | None:
-    """Return what judges the planner's certificate, as ``pons.http`` does."""
-    if not settings.tls:
-        return None
-    file = settings.authority or settings.home / AUTHORITY
-    there = settings.authority is not None or os.access(file, os.R_OK)
-    return ssl.create_default_context(cafile=str(file) if there else None)
-
-
-def _subprotocols() -> list[str] | None:
-    """Return how the token is shown where one is set (planner/api/access.py)."""
-    token = os.environ.get("PONS_OPERATOR_TOKEN", "")
-    if not token:
-        return None
-    word = base64.urlsafe_b64encode(token.encode()).decode().rstrip("=")
-    return ["pons.v1", f"bearer.{word}"]
+    def _lose(self) -> None:
+        self._view.is_there = False
+        self._changed()

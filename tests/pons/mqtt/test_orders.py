@@ -13,15 +13,15 @@ from pons.mqtt.orders import (
     SETTLE_S,
     TOPICS,
     HomeOrder,
+    MessageRefusal,
     OrderGate,
-    OrderRefusal,
     read_order,
 )
 
 ROOMS = ("kitchen", "study")
 
 
-def read(topic: str, payload: bytes, *, retained: bool = False) -> HomeOrder | OrderRefusal:
+def read(topic: str, payload: bytes, *, retained: bool = False) -> HomeOrder | MessageRefusal:
     return read_order(topic, payload, retained=retained, rooms=ROOMS)
 
 
@@ -65,7 +65,7 @@ def test_what_home_assistant_sends_is_an_order(topic: str, payload: str, order: 
 )
 def test_what_is_no_order_is_refused_with_a_code(topic: str, payload: bytes, code: str) -> None:
     refusal = read(topic, payload)
-    assert isinstance(refusal, OrderRefusal)
+    assert isinstance(refusal, MessageRefusal)
     assert refusal.code == code
 
 
@@ -75,7 +75,7 @@ def test_what_is_no_order_is_refused_with_a_code(topic: str, payload: bytes, cod
 )
 def test_a_retained_order_moves_nothing(topic: str, payload: bytes) -> None:
     refusal = read(topic, payload, retained=True)
-    assert isinstance(refusal, OrderRefusal)
+    assert isinstance(refusal, MessageRefusal)
     assert refusal.code == "mqtt_retained"
 
 
@@ -88,7 +88,7 @@ def test_a_stop_is_a_stop_also_retained(topic: str, payload: bytes) -> None:
 
 @given(st.sampled_from(TOPICS), st.binary(max_size=200), st.booleans())
 def test_no_bytes_raise(topic: str, payload: bytes, retained: bool) -> None:
-    assert isinstance(read(topic, payload, retained=retained), HomeOrder | OrderRefusal)
+    assert isinstance(read(topic, payload, retained=retained), HomeOrder | MessageRefusal)
 
 
 HOME = HomeOrder("home")
