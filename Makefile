@@ -45,7 +45,8 @@ run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; pr
 HOME_ROW := tests/e2e/test_home_tour.py tests/e2e/test_external_brain.py tests/e2e/test_bases.py \
   tests/deploy/test_separate_starts.py
 OWN_ROW := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_wheel.py \
-  tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_stop_anywhere.py
+  tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_stop_anywhere.py \
+  tests/e2e/test_smart_home.py
 PAGE_ROW := tests/web
 # These go with the two shorter rows: the page's would else be as long as both.
 PAGE_BESIDE_HOME := tests/web/test_asked_first.py tests/web/test_missions.py tests/web/test_people.py tests/web/test_points.py

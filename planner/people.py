@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 MOST_PEOPLE = 64
 TOKEN_BYTES = 32
 MOST_ID_CHARACTERS = 32
-OWN_IDS = frozenset({"api", "cli", "page", "planner", "bridge", "owner"})
+OWN_IDS = frozenset({"api", "cli", "page", "planner", "bridge", "owner", "mqtt"})
 """What the robot's own doors are written down as; a person of that id would be taken for one."""
 
 

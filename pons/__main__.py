@@ -243,11 +243,11 @@ def _help(said: argparse.Namespace) -> int:
     return main([*([said.about] if said.about else []), "--help"])
 
 
-_BARE_TOOLS = frozenset({"tls", "key"})
+_BARE_TOOLS = frozenset({"tls", "key", "mqtt"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
 _PLANNERS = frozenset({"places", "people", "orders", "replies", "goals", "log"})
 _TOOLS = _BARE_TOOLS | _PLANNERS | {
-    "doctor", "why", "braking", "fence", "calibrate", "fault", "replay", "detect",
+    "doctor", "why", "foxglove", "braking", "fence", "calibrate", "fault", "replay", "detect",
 }  # fmt: skip
 
 
@@ -295,6 +295,15 @@ def _tool(settings: LaunchSettings, said: argparse.Namespace) -> int:
         from pons import detect
 
         return detect.run(settings, said)
+    return _show(settings, said)
+
+
+def _show(settings: LaunchSettings, said: argparse.Namespace) -> int:
+    """Show the robot live, or a recording of it."""
+    if said.word == "foxglove":
+        from pons import foxglove
+
+        return foxglove.run(settings, said.act, said.port)
     from pons import replay
 
     if said.with_model is not None:

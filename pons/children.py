@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pons import mqtt
 from pons.robot_processes import address_arguments, common_arguments, free_port
 from pons.settings import allowed_hosts
 from pons.supervisor import Child
@@ -80,6 +81,8 @@ def children(
     if has_ros2:
         found.insert(int(simulated), _ros2(common, ros2_port, logs))
     _secure(found, issued)
+    if planner and mqtt.is_wanted(settings.home):
+        found.append(_mqtt(settings, common, logs))
     if not simulated and robot.inputs.imu and robot.imu.is_on_i2c:
         found.insert(0, Child("imu", ["sensors.imu", *common], logs / "imu.log"))
     seen = ["sim.camera", *world, *domain] if simulated else ["sensors.camera", *common]
@@ -124,6 +127,13 @@ def _drive_twin(settings: LaunchSettings, line: Path) -> list[str]:
     """Return what has the simulator play a base at a line."""
     own = settings.twin_firmware
     return ["--twin", str(line), *(["--twin-firmware", str(own)] if own else [])]
+
+
+def _mqtt(settings: LaunchSettings, common: list[str], logs: Path) -> Child:
+    """Return the process that joins a smart home: a client, for which nothing waits."""
+    tls = ["--tls"] if settings.tls else []
+    arguments = ["pons.mqtt", *common, *address_arguments(settings), *tls]
+    return Child("mqtt", arguments, logs / "mqtt.log", waits_for_ready=True)
 
 
 def _ros2(common: list[str], port: str | None, logs: Path) -> Child:

@@ -53,6 +53,19 @@ HELP = {
         "Open the page of the running robot in this machine's browser, and print its address.",
         "pons open",
     ),
+    "foxglove": _entry(
+        "show the running robot live to Foxglove or Lichtblick, until Ctrl-C",
+        "Serve scan, pose, route, map, camera, objects, rows and speeds on this machine's "
+        "loopback. `layout` prints a window that Foxglove imports; docs/foxglove.md.",
+        "pons foxglove",
+        "pons foxglove layout > pons-layout.json",
+    ),
+    "mqtt": _entry(
+        "join a smart home by MQTT (Home Assistant), until Ctrl-C",
+        "Join the broker that [mqtt] of settings.toml names: the robot appears as a device, takes "
+        "orders and stops. `pons up` runs this by itself where [mqtt] is set; docs/smart-home.md.",
+        "pons mqtt",
+    ),
     "tls": _entry(
         "make or renew the certificate; say what devices must trust",
         "Make or renew this robot's certificate and say which one telephones and shells must "

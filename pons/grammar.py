@@ -53,8 +53,11 @@ def parser() -> CommandParser:
         add_command(words, word).add_argument("--json", action="store_true", help="as JSON")
     for word in ("cancel", "pause", "resume"):
         add_command(words, word).add_argument("goal", nargs="?", metavar="GOAL", help="its id")
-    for word in ("arm", "reset", "tls"):
+    for word in ("arm", "reset", "tls", "mqtt"):
         add_command(words, word)
+    shown = add_command(words, "foxglove")
+    shown.add_argument("act", nargs="?", choices=("layout",), help="print the window's layout")
+    shown.add_argument("--port", type=int, default=8765, help="of the loopback: 8765")
     _doctor(words)
     _calibrate(words)
     wrote = add_command(words, "replies")

@@ -62,10 +62,15 @@ def call(
     return _judge(*_exchange(settings, method, path, body, timeout_s, headers, content))
 
 
+def fetch(settings: LaunchSettings, path: str) -> bytes:
+    """Return an answer that is not JSON. Raises as ``call``."""
+    status, raw = _exchange(settings, "GET", path)
+    return raw if status == http.HTTPStatus.OK else bytes(_judge(status, raw))
+
+
 def fetch_text(settings: LaunchSettings, path: str) -> str:
     """Return an answer that is a text and no JSON. Raises as ``call``."""
-    status, raw = _exchange(settings, "GET", path)
-    return raw.decode() if status == http.HTTPStatus.OK else str(_judge(status, raw))
+    return fetch(settings, path).decode()
 
 
 def _exchange(

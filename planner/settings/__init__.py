@@ -13,6 +13,7 @@ from planner.settings.loader import (
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
+from planner.settings.mqtt import MqttSettings
 from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, TokensField
 from planner.settings.vision import VisionSettings
@@ -30,6 +31,7 @@ __all__ = [
     "MemorySettings",
     "MissionSettings",
     "ModelSettings",
+    "MqttSettings",
     "NotifySettings",
     "OrderSettings",
     "Preset",

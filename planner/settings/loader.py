@@ -20,6 +20,7 @@ from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
+from planner.settings.mqtt import MqttSettings
 from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import known_as
 from planner.settings.vision import VisionSettings, with_environment
@@ -52,6 +53,8 @@ class Settings(BaseModel):
     voice: VoiceSettings = VoiceSettings()
     speech: SpeechSettings = SpeechSettings()
     orders: OrderSettings = OrderSettings()
+    mqtt: MqttSettings | None = None
+    """None: the robot joins no smart home."""
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -289,6 +292,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "speech": SpeechSettings,
     "orders": OrderSettings,
     "orders.notify": NotifySettings,
+    "mqtt": MqttSettings,
     "budget": BudgetSettings,
     "budget.goal": GoalLimits,
     "budget.day": DayLimits,

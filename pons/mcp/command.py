@@ -18,7 +18,7 @@ from pons.mcp.planner_door import TOKEN, DoorError, PlannerDoor
 from pons.mcp.server import build_server
 from pons.settings import port_of
 from pons.tls import prepare
-from pons.version import version_line
+from pons_assets.version import version_line
 from wire import ConfigError
 
 if TYPE_CHECKING:

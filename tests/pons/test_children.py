@@ -179,6 +179,28 @@ def test_what_may_be_tried_without_a_planner_is_there_to_be_tried(tmp_path: Path
     assert brain_example(tmp_path, root=tmp_path).startswith("a brain of your own ")
 
 
+@pytest.mark.parametrize(
+    ("text", "planner", "joins"),
+    [
+        ('[mqtt]\nhost = "broker"\n', True, True),
+        ('[mqtt]\nhost = "broker"\n', False, False),
+        ("[budget]\n", True, False),
+        ("[mqtt", True, False),
+        (None, True, False),
+    ],
+)
+def test_a_smart_home_is_joined_last_where_the_owner_names_its_broker(
+    tmp_path: Path, text: str | None, planner: bool, joins: bool
+) -> None:
+    if text is not None:
+        (tmp_path / "settings.toml").write_text(text)
+    settings = LaunchSettings(tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420)
+    found = children(settings, RobotDescription.model_validate({}), planner=planner)
+    home = [child for child in found if child.name == "mqtt"]
+    assert len(home) == joins
+    assert all(each.waits_for_ready and not each.knows_tokens for each in home)
+
+
 def test_while_a_home_is_mapped_only_the_simulator_knows_it(tmp_path: Path) -> None:
     world = CHECKOUT / "sites" / "two_room"
     settings = LaunchSettings(

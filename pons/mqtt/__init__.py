@@ -1,0 +1,81 @@
+"""Join the robot to a smart home by MQTT: ``pons mqtt``, or ``[mqtt]`` in settings.toml.
+
+Needs the extra ``mqtt`` (aiomqtt); nothing else of ours imports this package's gateway.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import signal
+import sys
+import tomllib
+from typing import TYPE_CHECKING
+
+from pons.terminal import pick
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from pons.settings import LaunchSettings
+
+EXIT_DONE, EXIT_UNUSABLE = 0, 2
+SETTINGS_FILE = "settings.toml"
+NO_EXTRA = (
+    "no_mqtt: the library is not here; install it: pip install 'pons-robot[mqtt]'",
+    "no_mqtt：缺少 MQTT 库；请安装：pip install 'pons-robot[mqtt]'",
+)
+NO_TABLE = (
+    "mqtt_unset: {} has no [mqtt] table; docs/smart-home.md shows one",
+    "mqtt_unset：{} 中没有 [mqtt] 表；见 docs/smart-home.md",
+)
+
+
+def is_wanted(home: Path) -> bool:
+    """Return whether a home's settings name a broker; a file that can't be read names none."""
+    try:
+        return "mqtt" in tomllib.loads((home / SETTINGS_FILE).read_text("utf-8-sig"))
+    except (OSError, ValueError):
+        return False  # the planner, which starts with it, tells why
+
+
+def run(settings: LaunchSettings) -> int:
+    """Serve until SIGTERM or Ctrl-C; 2 where something must be mended first."""
+    from planner.settings import load_settings
+    from wire import ConfigError, load_robot
+
+    logging.basicConfig(format="%(asctime)s %(name)s: %(message)s", level=logging.INFO)
+    try:
+        chosen = load_settings(settings.home, os.environ).mqtt
+        if chosen is None:
+            print(pick(*NO_TABLE).format(settings.home / SETTINGS_FILE), file=sys.stderr)
+            return EXIT_UNUSABLE
+        from pons.mqtt.gateway import HomeGateway, read_secret
+
+        robot = load_robot(settings.robot)
+        read_secret(settings, chosen.password_file)
+        if (token := read_secret(settings, chosen.token_file)) is not None:
+            os.environ["PONS_OPERATOR_TOKEN"] = token  # what pons.http shows to the planner
+        has_camera = robot.camera.kind != "none"
+
+        async def serve() -> None:
+            gateway = HomeGateway(settings, chosen, robot.id, has_camera=has_camera)
+            task = asyncio.current_task()
+            for number in (signal.SIGTERM, signal.SIGINT):
+                if task is not None:
+                    asyncio.get_running_loop().add_signal_handler(number, task.cancel)
+            await gateway.run()
+
+        asyncio.run(serve())
+    except ModuleNotFoundError as missing:
+        if missing.name not in ("aiomqtt", "paho", "paho.mqtt"):
+            raise
+        print(pick(*NO_EXTRA), file=sys.stderr)
+        return EXIT_UNUSABLE
+    except ConfigError as wrong:
+        print(wrong, file=sys.stderr)
+        return EXIT_UNUSABLE
+    except asyncio.CancelledError:
+        pass
+    return EXIT_DONE

@@ -1,0 +1,128 @@
+"""Run Debian's mosquitto on a free port, with a password and TLS, for tests of the smart home."""
+
+from __future__ import annotations
+
+import shutil
+import socket
+import subprocess
+import time
+from contextlib import suppress
+from datetime import UTC, datetime, timedelta
+from ipaddress import ip_address
+from pathlib import Path
+from typing import Self
+
+import pytest
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes, serialization
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.x509.oid import NameOID
+
+from pons.robot_processes import free_port
+
+USER, PASSWORD = "robot", "s3cret word"
+LIMIT_S = 10.0
+
+
+def require_mosquitto() -> str:
+    """Return the broker's program; skip aloud where it is not installed."""
+    found = shutil.which("mosquitto", path="/usr/sbin:/usr/bin:/usr/local/sbin:/usr/local/bin")
+    if found is None:
+        pytest.skip("mosquitto is not installed (apt install mosquitto)")
+    return found
+
+
+class Broker:
+    """Be one broker; entering starts it, and ``restart`` is a power cut."""
+
+    def __init__(self, folder: Path) -> None:
+        self._program, self._folder = require_mosquitto(), folder
+        self.port = free_port()
+        self.ca_file = folder / "broker-ca.crt"
+        self._process: subprocess.Popen[bytes] | None = None
+        _certify(folder)
+        passwords = folder / "passwords"
+        passwords.touch(0o600)
+        subprocess.run(
+            ["mosquitto_passwd", "-b", str(passwords), USER, PASSWORD],
+            check=True,
+            capture_output=True,
+        )
+        (folder / "mosquitto.conf").write_text(
+            f"listener {self.port} 127.0.0.1\nallow_anonymous false\npassword_file {passwords}\n"
+            f"cafile {self.ca_file}\ncertfile {folder}/broker.crt\nkeyfile {folder}/broker.key\n"
+            f"persistence false\nlog_type error\nuser root\nmax_queued_messages 10000\n"
+        )
+
+    def start(self) -> None:
+        """Start it and wait until it listens."""
+        with (self._folder / "mosquitto.log").open("ab") as log:
+            self._process = subprocess.Popen(
+                [self._program, "-c", str(self._folder / "mosquitto.conf")],
+                stdout=subprocess.DEVNULL,
+                stderr=log,
+            )
+        end_s = time.monotonic() + LIMIT_S
+        while time.monotonic() < end_s:
+            with suppress(OSError), socket.create_connection(("127.0.0.1", self.port), 1.0):
+                return
+            time.sleep(0.02)
+        raise AssertionError((self._folder / "mosquitto.log").read_text())
+
+    def end(self) -> None:
+        """End it; its clients are cut off."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+            self._process = None
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.end()
+
+    def table(self, home: Path) -> str:
+        """Return the [mqtt] table that joins it, and write the files that it names."""
+        secret = home / "broker-password"
+        secret.write_text(PASSWORD)
+        secret.chmod(0o600)
+        return (
+            f'[mqtt]\nhost = "127.0.0.1"\nport = {self.port}\nca_file = "{self.ca_file}"\n'
+            f'username = "{USER}"\npassword_file = "{secret.name}"\npicture_s = 1.0\n'
+        )
+
+
+def _certify(folder: Path) -> None:
+    """Write an authority and the certificate of 127.0.0.1 that it has signed."""
+    now = datetime.now(UTC)
+    ca_key, key = (ec.generate_private_key(ec.SECP256R1()) for _ in range(2))
+
+    def build(name: str, issuer: str, of: ec.EllipticCurvePrivateKey, *, is_ca: bool) -> bytes:
+        names = [x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, n)]) for n in (name, issuer)]
+        built = (
+            x509.CertificateBuilder()
+            .subject_name(names[0])
+            .issuer_name(names[1])
+            .public_key(of.public_key())
+            .serial_number(x509.random_serial_number())
+            .not_valid_before(now - timedelta(days=1))
+            .not_valid_after(now + timedelta(days=1))
+            .add_extension(x509.BasicConstraints(ca=is_ca, path_length=None), critical=True)
+            .add_extension(
+                x509.SubjectAlternativeName([x509.IPAddress(ip_address("127.0.0.1"))]),
+                critical=False,
+            )
+        )
+        return built.sign(ca_key, hashes.SHA256()).public_bytes(serialization.Encoding.PEM)
+
+    (folder / "broker-ca.crt").write_bytes(build("ca", "ca", ca_key, is_ca=True))
+    (folder / "broker.crt").write_bytes(build("broker", "ca", key, is_ca=False))
+    (folder / "broker.key").write_bytes(
+        key.private_bytes(
+            serialization.Encoding.PEM,
+            serialization.PrivateFormat.PKCS8,
+            serialization.NoEncryption(),
+        )
+    )
