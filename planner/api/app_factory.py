@@ -28,6 +28,7 @@ from planner.api import (
     problems,
     rehearsals,
     robot,
+    settings,
     setup,
     static_files,
     usage,
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, rehearsals, voice, live_voice, operator, hand, setup, robot, orders, places,
+    goals, rehearsals, voice, live_voice, operator, hand, setup, settings, robot, orders, places,
     localization, objects, memory, pictures, camera, fence, marks, people, usage, history, health,
     websocket,
 )  # fmt: skip

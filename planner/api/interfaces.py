@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, GoToPose, Language
     from planner.rehearsal import Rehearser
+    from planner.settings_desk import SettingsDesk
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
@@ -140,6 +141,9 @@ class Robot(Protocol):
     @property
     def description(self) -> RobotDescription: ...
 
+    @property
+    def max_speed_mps(self) -> float: ...
+
     def obstacles(self) -> Sequence[tuple[float, float]]: ...
 
     @property
@@ -235,6 +239,12 @@ class Services(Protocol):
 
     @property
     def setup(self) -> SetupSwitch: ...
+
+    @property
+    def restart(self) -> SetupSwitch: ...
+
+    @property
+    def settings_desk(self) -> SettingsDesk: ...
 
     @property
     def goals(self) -> Goals: ...

@@ -21,6 +21,8 @@ OPERATORS = frozenset({"/v1/goals/x/replies"})
 STOPPING = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 OWNERS = ("/v1/people", "/v1/people/x")
 """What only the token that the planner was started with may change."""
+OWNERS_OWN = ("/v1/settings", "/v1/settings/model/test", "/v1/settings/restart")
+"""What others may not even look at."""
 TOKENS = {
     "operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": "",
     "Ana": "a" * 20, "guest": "g" * 20,
@@ -50,6 +52,8 @@ def expected_status(asker: str, method: str, path: str) -> int | None:
     if asker in ("nobody", "wrong token"):
         return 401
     if path in OWNERS and asker != "operator" and method not in LOOKING:
+        return 403
+    if path in OWNERS_OWN and asker != "operator":
         return 403
     looks = method in LOOKING and path not in OPERATORS
     if asker in ("viewer", "guest") and not looks and path not in STOPPING:
