@@ -32,6 +32,7 @@ from planner.plan_display import PlanDisplay
 from planner.rehearsal import Rehearser
 from planner.robot_service import LinkedRobot
 from planner.settings import list_keys, load_settings
+from planner.settings_desk import SettingsDesk
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.site.marks import marks_path
@@ -41,7 +42,7 @@ from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
-from processes.service import Service
+from processes.service import Service, is_supervised
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import PLAN_VIEW, Party
 from wire.session import open_session
@@ -82,9 +83,9 @@ class Planner:
             ConfigError, SiteError: robot.toml, settings.toml or the site is wrong, or a planner
                 runs here.
         """
-        self.setup = ProcessSwitch(is_there=where.may_set_up)
+        self.setup, self.restart = map(ProcessSwitch, (where.may_set_up, is_supervised()))
         self.settings = load_settings(where.home, os.environ)
-        self._state = _state_of(where.home)
+        self._home, self._state = where.home, _state_of(where.home)
         self.people = People(self._state)
         self.budget = purse_of(self.settings, where.home, self._state)
         self.replies = collector_of(self.settings)
@@ -98,7 +99,7 @@ class Planner:
         self._journal = MissionJournal.in_home(where.home)
         self.history = GoalHistory.in_home(where.home)
         drawn = marks_path(where.home, self.site.map_id)
-        limits = RouteLimits.of(self.description)
+        limits = RouteLimits.of(self.description, self._speed_mps)
         self._router = RouteWorker(self.site.folder, self.site.map_id, limits, drawn)
         taught = TaughtPlaces.in_home(where.home, self._state)
         radius_m = self.description.base.radius_m
@@ -111,7 +112,7 @@ class Planner:
         link = Link(
             WireBus(self._session, nav2=_is_driven_by_nav2(self.description)), self.description
         )
-        self.robot = LinkedRobot(link, self.description)
+        self.robot = LinkedRobot(link, self.description, self._speed_mps)
         self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None
         self._warming: asyncio.Task[None] | None = None
@@ -134,6 +135,20 @@ class Planner:
         self._begin_memory(where.home)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
         self.goals.loop.bound_search(picture_limits(self.settings), spent_by(self.budget))
+
+    @property
+    def _speed_mps(self) -> float:
+        """Return the robot's own speed limit, or the owner's below it."""
+        return self.settings.limits.lower_speed(self.description.limits.max_speed_mps)
+
+    @cached_property
+    def settings_desk(self) -> SettingsDesk:
+        """Show and change settings.toml; what is in force is what this planner began with."""
+        return SettingsDesk(
+            self._home, os.environ, self.settings, self._state,
+            robot_mps=self.description.limits.max_speed_mps,
+            adopt=lambda saved: self.budget.adopt(saved.budget),
+        )  # fmt: skip
 
     @cached_property
     def rehearser(self) -> Rehearser:
@@ -311,6 +326,9 @@ async def _end_with(planner: Planner) -> None:
     while (failure := planner.goals.failure or planner.orders.keeper.failure) is None:
         if planner.detector.refused is not None:
             log.critical("the detector that is set can't be used: %s", planner.detector.refused)
+            break
+        if planner.restart.is_thrown:
+            log.warning("restart: leaving, so that the next start reads the settings again")
             break
         if planner.setup.is_thrown:
             log.warning("set_up: leaving, so that set-up takes the bridge's place")

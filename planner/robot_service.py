@@ -42,9 +42,14 @@ LOCALIZER_S = 2.0
 class LinkedRobot:
     """Answer the routes from one link. Never blocks."""
 
-    def __init__(self, link: Link, description: RobotDescription) -> None:
+    def __init__(
+        self, link: Link, description: RobotDescription, max_speed_mps: float | None = None
+    ) -> None:
         self._link = link
         self.description = description
+        own_mps = description.limits.max_speed_mps
+        self.max_speed_mps = own_mps if max_speed_mps is None else max_speed_mps
+        """The owner's limit, where it is below robot.toml's: no hand is relayed faster."""
         self._steered: tuple[str, int] = ("", 0)
         self._names: dict[str, str] = {}
 
@@ -170,7 +175,7 @@ class LinkedRobot:
                 epoch=status.epoch,
                 seq=seq,
                 seen=status.seq,
-                v_mps=v_mps,
+                v_mps=max(-self.max_speed_mps, min(v_mps, self.max_speed_mps)),
                 w_radps=w_radps,
                 dead_man=dead_man,
             )

@@ -1,14 +1,14 @@
-"""Leave the robot to set-up: this process ends with a status that its starter knows."""
+"""Leave the robot to set-up, or to this process's next start: its starter knows which."""
 
 from __future__ import annotations
 
 
 class ProcessSwitch:
-    """Remember that an operator asked for set-up; the planner's watch ends the process then."""
+    """Remember that a person asked for it; the planner's watch ends the process then."""
 
-    def __init__(self, *, is_there: bool) -> None:
+    def __init__(self, is_there: bool) -> None:
         self.is_there = is_there
-        """Whether who started this process starts set-up in its place."""
+        """Whether the starter of this process starts the other one in its place."""
         self.is_thrown = False
 
     def throw(self) -> None:

@@ -36,6 +36,10 @@ _PEOPLE = (
     print TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, role TEXT NOT NULL,
     since TEXT NOT NULL) WITHOUT ROWID""",
 )
-SCHEMAS = (tuple(filter(str.strip, _TABLES.split(";"))), _MEMORY, _PEOPLE)
+_SETTINGS = (
+    """CREATE TABLE settings_changes (
+    position INTEGER PRIMARY KEY, at TEXT NOT NULL, by TEXT NOT NULL, names TEXT NOT NULL)""",
+)
+SCHEMAS = (tuple(filter(str.strip, _TABLES.split(";"))), _MEMORY, _PEOPLE, _SETTINGS)
 """What each version adds to the one before; a home of an older version is brought forward."""
 VERSION = len(SCHEMAS)

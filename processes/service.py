@@ -14,6 +14,11 @@ WATCHDOG_PERIOD_S = 0.1
 """Often enough for any WatchdogSec= of a second, rare enough to cost nothing."""
 
 
+def is_supervised() -> bool:
+    """Say whether somebody starts this process again when it ends."""
+    return "NOTIFY_SOCKET" in os.environ
+
+
 class Service:
     """Speak to the service manager over its datagram socket; never blocks, never raises."""
 

@@ -44,7 +44,7 @@ OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?|/v1/hand/?")
 may one open the socket of a hand on the stick."""
 _GOALS = r"/v1/goals|/v1/goals/[^/]+/(?:answer|cancel)|/v1/rehearsals"
 _READING = r"/healthz|/readyz|/v1/(?:robot|map|places|camera\.jpg|objects|localization|events)"
-_READING += r"|/v1/(?:goals|history|memory|usage|orders|people)|/v1/(?:goals|history)/[^/]+"
+_READING += r"|/v1/(?:capabilities|skills|goals|history|memory|usage|orders|people)|/v1/(?:goals|history)/[^/]+"
 MAY: dict[Role, tuple[tuple[frozenset[str], re.Pattern[str]], ...]] = {
     Role.AGENT: (
         (SAFE_METHODS, re.compile(_READING)),
@@ -63,6 +63,8 @@ MAY: dict[Role, tuple[tuple[frozenset[str], re.Pattern[str]], ...]] = {
 Everybody with a token may stop (``STOPPING_PATHS``)."""
 PEOPLE_PATH = "/v1/people"
 """The owner's to change: who could add people could add a way in that outlives a removal."""
+SETTINGS_PATH = "/v1/settings"
+"""The owner's to see and to change: an address there is where people's words and a key go."""
 
 
 FORWARDED = ("forwarded", "via")
@@ -122,7 +124,8 @@ class Access:
         if not _may(role, method, path):
             raise AccessError(403, "person_needed", f"{method} {path[:80]} is not the {role}'s")
         changes = method not in SAFE_METHODS
-        if changes and path.startswith(PEOPLE_PATH) and not self._is_owner(token):
+        owners = path.startswith(SETTINGS_PATH) or (changes and path.startswith(PEOPLE_PATH))
+        if owners and not self._is_owner(token):
             raise AccessError(403, "owner_needed", f"{method} {path[:80]} is the owner's alone")
         if role is not Role.OPERATOR and OPERATORS_READING.fullmatch(path):
             detail = f"the viewer's token came; {method} {path[:80]} needs the operator's"

@@ -29,6 +29,7 @@ from planner.api import (
     problems,
     rehearsals,
     robot,
+    settings,
     setup,
     skills,
     static_files,
@@ -50,9 +51,9 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, rehearsals, voice, live_voice, operator, hand, setup, robot, capabilities, orders,
-    places, localization, objects, memory, pictures, camera, fence, marks, people, skills, usage,
-    history, health, websocket,
+    goals, rehearsals, voice, live_voice, operator, hand, setup, settings, robot, capabilities,
+    orders, places, localization, objects, memory, pictures, camera, fence, marks, people, skills,
+    usage, history, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

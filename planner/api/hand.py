@@ -162,11 +162,11 @@ def is_taken(robot: Robot, source: str) -> bool:
 
 
 def relay(robot: Robot, source: str, name: str, order: StickOrder | None) -> None:
-    """Tell the bridge, below robot.toml's limits; its caps and gates come on top."""
+    """Tell the bridge, below robot.toml's limits and the owner's; its caps come on top."""
     if order is None:
         return
     limits = robot.description.limits
-    v_mps, w_radps = order.forward * limits.max_speed_mps, order.left * limits.max_turn_radps
+    v_mps, w_radps = order.forward * robot.max_speed_mps, order.left * limits.max_turn_radps
     robot.steer(source, v_mps, w_radps, dead_man=order.held, name=name)
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language, Means, Step
     from planner.rehearsal import Rehearser
+    from planner.settings_desk import SettingsDesk
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.skill_files.folder import SkillFolder
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
@@ -147,6 +148,9 @@ class Robot(Protocol):
     @property
     def description(self) -> RobotDescription: ...
 
+    @property
+    def max_speed_mps(self) -> float: ...
+
     def obstacles(self) -> Sequence[tuple[float, float]]: ...
 
     @property
@@ -242,6 +246,12 @@ class Services(Protocol):
 
     @property
     def setup(self) -> SetupSwitch: ...
+
+    @property
+    def restart(self) -> SetupSwitch: ...
+
+    @property
+    def settings_desk(self) -> SettingsDesk: ...
 
     @property
     def goals(self) -> Goals: ...

@@ -68,6 +68,11 @@ class Purse:
         self.changes = 0
         """Rises with every change of the meter, so that who shows it knows when to look."""
 
+    def adopt(self, budget: BudgetSettings) -> None:
+        """Keep to other limits and prices from the next call on."""
+        self._budget = budget
+        self.changes += 1
+
     def prepare(self) -> None:
         """Make the ledger's database, so that no call waits for that. Blocks on the disk."""
         if self._model is not None:

@@ -44,11 +44,12 @@ class RouteLimits:
     max_lateral_mps2: float = 0.5
 
     @classmethod
-    def of(cls, robot: RobotDescription) -> RouteLimits:
-        """Take the limits from a robot's description."""
+    def of(cls, robot: RobotDescription, max_speed_mps: float | None = None) -> RouteLimits:
+        """Take the limits from a robot's description; the owner's speed limit where it is lower."""
+        own_mps = robot.limits.max_speed_mps
         return cls(
             radius_m=robot.base.radius_m,
-            max_speed_mps=robot.limits.max_speed_mps,
+            max_speed_mps=own_mps if max_speed_mps is None else min(max_speed_mps, own_mps),
             max_turn_radps=robot.limits.max_turn_radps,
             max_decel_mps2=robot.limits.max_decel_mps2,
             max_lateral_mps2=robot.limits.max_lateral_mps2,

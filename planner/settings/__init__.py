@@ -1,10 +1,12 @@
 """Read the owner's settings: `$PONS_HOME/settings.toml` and a few environment variables."""
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Limits, Price
+from planner.settings.limits import LimitSettings
 from planner.settings.loader import (
     FILE,
     Settings,
     find_exposed,
+    judge_tables,
     list_keys,
     load_settings,
     place_of,
@@ -27,6 +29,7 @@ __all__ = [
     "DayLimits",
     "GoalLimits",
     "JsonMode",
+    "LimitSettings",
     "Limits",
     "MemorySettings",
     "MissionSettings",
@@ -43,6 +46,7 @@ __all__ = [
     "VisionSettings",
     "VoiceSettings",
     "find_exposed",
+    "judge_tables",
     "list_keys",
     "load_settings",
     "place_of",

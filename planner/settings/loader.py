@@ -17,6 +17,7 @@ from urllib.parse import urlsplit
 from pydantic import BaseModel, ConfigDict, SecretStr, ValidationError
 
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
+from planner.settings.limits import LimitSettings
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
@@ -35,7 +36,7 @@ MAX_BYTES = 16_000
 """A parser is busy for seconds with 64 kB of one dotted key."""
 MAX_KEY_BYTES = 8 * 1024
 _KEYED = ("model", "voice", "speech")
-_KEY_SOURCES = ("key", "key_env", "key_file")
+KEY_SOURCES = ("key", "key_env", "key_file")
 _YES = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
 
 
@@ -55,6 +56,7 @@ class Settings(BaseModel):
     orders: OrderSettings = OrderSettings()
     mqtt: MqttSettings | None = None
     """None: the robot joins no smart home."""
+    limits: LimitSettings = LimitSettings()
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -64,9 +66,19 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
         ConfigError: ``settings_unreadable``, ``settings_malformed``, ``model_incomplete``,
             ``model_key``, ``voice_key``, ``speech_key``, ``budget_contradictory``.
     """
-    tables = _tables(home / FILE)
+    tables = _tables(home)
     for sentence in find_exposed(home):
         log.warning("settings_exposed: %s", sentence)
+    return judge_tables(tables, home, environment)
+
+
+def judge_tables(given: Mapping[str, Any], home: Path, environment: Mapping[str, str]) -> Settings:
+    """Return the settings that the tables of a settings.toml stand for.
+
+    Raises:
+        ConfigError: as ``load_settings``.
+    """
+    tables = dict(given)
     model = tables.pop("model", None)
     if model is not None and not isinstance(model, dict):
         raise ConfigError("settings_malformed", f"{FILE}: [model] must be a table")
@@ -93,7 +105,7 @@ def find_exposed(home: Path) -> list[str]:
     Raises:
         ConfigError: ``settings_unreadable``, ``settings_malformed``.
     """
-    tables = [t for n in _KEYED if isinstance(t := _tables(home / FILE).get(n), dict)]
+    tables = [t for n in _KEYED if isinstance(t := _tables(home).get(n), dict)]
     files = [(home / FILE, any("key" in table for table in tables))]
     apart = (table.get("key_file") for table in tables)
     files += [(home / name, True) for name in apart if isinstance(name, str) and name]
@@ -130,20 +142,37 @@ def place_of(home: Path, environment: Mapping[str, str]) -> str:
     Raises:
         ConfigError: ``settings_unreadable``, ``settings_malformed``.
     """
-    model = _tables(home / FILE).get("model")
+    model = _tables(home).get("model")
     table = {k: v for k, v in model.items() if k != "key"} if isinstance(model, dict) else {}
     preset, url = (environment.get(f"PONS_MODEL_{n}", "") for n in ("PRESET", "URL"))
     return _place(_at_another_place(table, preset, url))
 
 
-def _tables(path: Path) -> dict[str, Any]:
+def _tables(home: Path) -> dict[str, Any]:
+    return parse_settings(read_file(home / FILE), home / FILE)
+
+
+def read_file(path: Path) -> bytes:
+    """Return what settings.toml holds, or one byte more than it may; nothing where there is none.
+
+    Raises:
+        ConfigError: ``settings_unreadable``.
+    """
     if not path.exists():
-        return {}
+        return b""
     try:
         with path.open("rb") as file:
-            raw = file.read(MAX_BYTES + 1)
+            return file.read(MAX_BYTES + 1)
     except OSError as error:
         raise ConfigError("settings_unreadable", f"{path}: {error.strerror}") from None
+
+
+def parse_settings(raw: bytes, path: Path) -> dict[str, Any]:
+    """Return the tables of a settings.toml.
+
+    Raises:
+        ConfigError: ``settings_malformed``.
+    """
     if len(raw) > MAX_BYTES:
         raise ConfigError("settings_malformed", f"{path} is over {MAX_BYTES} bytes")
     try:
@@ -159,10 +188,10 @@ def _with_key(
 ) -> dict[str, Any]:
     """Put the key itself in the place of where it lies."""
     code = f"{table}_key"
-    sources = [name for name in _KEY_SOURCES if name in given]
+    sources = [name for name in KEY_SOURCES if name in given]
     if len(sources) > 1:
         raise ConfigError(code, f"{FILE}: give one of {', '.join(sources)}, not all")
-    rest = {name: value for name, value in given.items() if name not in _KEY_SOURCES}
+    rest = {name: value for name, value in given.items() if name not in KEY_SOURCES}
     if not sources:
         return rest
     source, value = sources[0], given[sources[0]]
@@ -297,6 +326,7 @@ _TABLES: dict[str, type[BaseModel]] = {
     "budget.goal": GoalLimits,
     "budget.day": DayLimits,
     "budget.price": Price,
+    "limits": LimitSettings,
 }
 
 
@@ -308,6 +338,6 @@ def _describe_error(where: tuple[int | str, ...], kind: str, text: str) -> str:
     name = ".".join(map(str, where))
     if kind == "extra_forbidden":
         known = _TABLES[table].model_fields if (table := _table(where)) in _TABLES else {}
-        told = (each for field in known for each in (_KEY_SOURCES if field == "key" else (field,)))
+        told = (each for field in known for each in (KEY_SOURCES if field == "key" else (field,)))
         return f"unknown key {name!r}; known: {', '.join(told)}"
     return f"{name} is missing" if kind == "missing" else f"{name}: {text}"

@@ -6,10 +6,10 @@ import os
 from pathlib import Path
 
 from planner.outbound import Address
+from planner.outbound.reach import trouble_reaching
 from planner.settings import load_settings
 from planner.site import Site
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
-from pons.doctor.reach import trouble_reaching
 from wire import ConfigError
 
 _FIX_MODEL = BilingualWords(

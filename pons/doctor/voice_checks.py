@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 from planner.outbound import Address
+from planner.outbound.reach import trouble_reaching
 from planner.plan import Language
 from planner.settings import Settings, SpeechSettings, VoiceSettings, load_settings
 from planner.voice import Sound, VoiceFailure, VoiceWorker
@@ -20,7 +21,6 @@ from planner.voice.speech_engines import EspeakVoice, open_speech
 from planner.voice.speech_output import SpeechFailure
 from planner.voice.transcription import ROUTE, open_caller
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
-from pons.doctor.reach import trouble_reaching
 from wire import ConfigError
 
 _FIX = BilingualWords(

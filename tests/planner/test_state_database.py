@@ -52,7 +52,7 @@ def test_a_schema_of_a_later_program_is_refused_and_left_alone(tmp_path: Path) -
     before = (tmp_path / FILE).read_bytes()
     with closing(StateDatabase(tmp_path)) as database:
         for use in (lambda: database.read(ROWS), database.put_aside_if_spoilt):
-            with pytest.raises(ConfigError, match="schema 99, expected 3") as wrong:
+            with pytest.raises(ConfigError, match="schema 99, expected 4") as wrong:
                 use()
             assert wrong.value.code == "state_version"
     assert (tmp_path / FILE).read_bytes() == before

@@ -13,6 +13,7 @@ import "./styles/missions.css";
 import "./styles/talk.css";
 import "./styles/hand.css";
 import "./styles/rehearsal.css";
+import "./styles/settings.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";

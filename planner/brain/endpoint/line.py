@@ -22,9 +22,8 @@ from planner.brain.endpoint.session import Asker
 from planner.brain.errors import BrainDown, StillLoading
 from planner.brain.schema import Message
 from planner.brain.usage_meter import Meter, thinking_about
-from planner.outbound import Address
 from planner.settings import ModelSettings
-from wire import ConfigError
+from planner.settings.model_address import need_local_or_allowed
 
 if TYPE_CHECKING:
     import httpx
@@ -55,13 +54,7 @@ class Line:
         Raises:
             ConfigError: ``model_url``, ``model_offhost``.
         """
-        self.address = Address.parse(settings.url)
-        if not self.address.local and not settings.allow_offhost:
-            raise ConfigError(
-                "model_offhost",
-                f"what people say would be sent to {self.address.host}; if that is meant, set "
-                "allow_offhost = true in [model], or PONS_MODEL_ALLOW_OFFHOST=1",
-            )
+        self.address = need_local_or_allowed(settings)
         self.settings = settings
         self.client = Client(self.address, settings, transport, meter)
         self.dialects = Dialects(home, settings, self.address.url)

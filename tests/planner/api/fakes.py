@@ -32,6 +32,8 @@ from planner.people import People
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language, Means, Step
 from planner.rehearsal import Rehearser
+from planner.settings import Settings
+from planner.settings_desk import SettingsDesk
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.skill_files.folder import SkillFolder
@@ -200,6 +202,7 @@ class FakeRobot:
         self.hint_score = 0.4
         self.localizer: LocalizerStatus | None = None
         self.takes_hints = True
+        self.max_speed_mps = 0.5
         self.localized_map: str | None = None
         self.steers: list[tuple[str, float, float, bool]] = []
         self.names: dict[str, str] = {}
@@ -375,6 +378,8 @@ class FakeServices:
         self.goals = FakeGoals()
         self.robot = FakeRobot(status)
         self.setup = ProcessSwitch(is_there=True)
+        self.restart = ProcessSwitch(is_there=True)
+        self.settings_desk = SettingsDesk(HOME, {}, Settings(), StateDatabase(HOME))
         self.ears = FakeEars()
         self.speaker = FakeSpeech()
         self.voice = VoiceAbilities()

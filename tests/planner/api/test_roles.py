@@ -23,7 +23,7 @@ OWNERS = ("/v1/people", "/v1/people/x")
 """What only the token that the planner was started with may change."""
 _LOOKS = """/healthz /readyz /v1/robot /v1/map /v1/places /v1/camera.jpg /v1/objects
 /v1/localization /v1/goals /v1/goals/x /v1/history /v1/history/x /v1/memory /v1/usage /v1/orders
-/v1/people"""
+/v1/people /v1/capabilities /v1/skills"""
 AGENTS = {
     "POST": ["/v1/goals", "/v1/goals/x/answer", "/v1/goals/x/cancel", "/v1/rehearsals"],
     "GET": _LOOKS.split(),
@@ -37,6 +37,8 @@ DISPATCHERS = {
     "GET": [*AGENTS["GET"], "/v1/fence", "/v1/marks", "/v1/obstacles", "/v1/voice"],
 }  # fmt: skip
 LISTED = {"Claude": AGENTS, "Desk": DISPATCHERS}
+OWNERS_OWN = ("/v1/settings", "/v1/settings/model/test", "/v1/settings/restart")
+"""What others may not even look at."""
 TOKENS = {
     "operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": "",
     "Ana": "a" * 20, "guest": "g" * 20, "Claude": "c" * 20, "Desk": "d" * 20,
@@ -72,6 +74,8 @@ def expected_status(asker: str, method: str, path: str) -> int | None:
         listed = LISTED[asker].get("GET" if method in LOOKING else method, [])
         return None if stops or path in listed else 403
     if path in OWNERS and asker != "operator" and method not in LOOKING:
+        return 403
+    if path in OWNERS_OWN and asker != "operator":
         return 403
     looks = method in LOOKING and path not in OPERATORS
     if asker in ("viewer", "guest") and not looks and path not in STOPPING:

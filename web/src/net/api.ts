@@ -39,7 +39,7 @@ const HEARD_MS = 40_000; // the owner's recogniser may take 30 s, the built-in o
 type Json = { readonly [key: string]: unknown };
 
 export async function call(
-  method: "GET" | "POST" | "PUT" | "DELETE",
+  method: "GET" | "POST" | "PUT" | "PATCH" | "DELETE",
   path: string,
   body?: object | ArrayBuffer,
   headers: Record<string, string> = {},

@@ -10,10 +10,12 @@ import { ObjectsTab } from "./ObjectsTab";
 import { OrdersTab } from "./OrdersTab";
 import { PlacesTab } from "./PlacesTab";
 import { RobotTab } from "./RobotTab";
+import { SettingsTab } from "./SettingsTab";
 import { SetupTab } from "./SetupTab";
 import { inSetup } from "../state/trial";
 
-type TabId = "setup" | "drive" | "orders" | "places" | "objects" | "robot" | "log" | "missions";
+type TabId =
+  "setup" | "drive" | "orders" | "places" | "objects" | "robot" | "log" | "missions" | "settings";
 
 const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "drive", View: DriveTab },
@@ -23,12 +25,13 @@ const TABS: readonly { readonly id: TabId; readonly View: ComponentType }[] = [
   { id: "robot", View: RobotTab },
   { id: "missions", View: MissionsTab },
   { id: "log", View: LogTab },
+  { id: "settings", View: SettingsTab },
 ];
 
 /** Where no bridge drives there is nothing to drive to. */
 const SETUP_TABS: typeof TABS = [
   { id: "setup", View: SetupTab },
-  ...TABS.filter(({ id }) => id === "robot" || id === "log"),
+  ...TABS.filter(({ id }) => ["robot", "log", "settings"].includes(id)),
 ];
 
 const chosen = signal<TabId>("drive");

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import socket
 
-from planner.outbound import Address, refused_among
+from planner.outbound.address import Address, refused_among
 
 CONNECT_S = 3.0
 
