@@ -243,7 +243,8 @@ class PlannerProcess:
     def turn(self, now_s: float) -> None:
         """Hear, judge, answer, and carry out what is due."""
         loop, tasks = self.missions.loop, self._tasks
-        tasks.do(now_s, loop.hear)
+        if self._port.bus.tick % self._pace.planner_hears == 0:
+            tasks.do(now_s, loop.hear)
         tasks.do(now_s, tasks.fire)
         if self._port.bus.tick % self._pace.planner_tick_period == 0:
             tasks.do(now_s, loop.tick)

@@ -176,6 +176,10 @@ class Rehearser:
         Raises:
             RehearsalError: it is no plan that moves, or the robot's place is not known.
         """
+        return await self.of_plan(await self.plan_of(text, language))
+
+    async def plan_of(self, text: str, language: Language | None = None) -> PlanRecord:
+        """Return what the built-in reader makes of a sentence; raises as :meth:`of_text` does."""
         pose = self._pose()
         request = ThinkRequest(
             text=text,
@@ -183,7 +187,7 @@ class Rehearser:
             language=language,
             room=self._site.facts.room_at(pose.x_m, pose.y_m),
         )
-        return await self.of_plan(plan_record((await OfflineBrain().think(request)).plan))
+        return plan_record((await OfflineBrain().think(request)).plan)
 
     async def of_plan(self, plan: PlanRecord | None) -> Rehearsal:
         """Rehearse a plan from here and now: of one under way, what is left of it.
