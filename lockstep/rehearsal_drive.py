@@ -15,7 +15,6 @@ import numpy as np
 from lockstep.latencies import TICK_S
 from lockstep.rehearsal_world import world_of
 from planner.driven_rehearsal import LONGEST_WAIT_S, DrivenPlan, DrivenStep
-from planner.mission.errors import MissionError
 from planner.plan import ENDED, GoalState, GoToPose, StepState, step_of
 
 if TYPE_CHECKING:
@@ -199,6 +198,3 @@ def _boxes_of(world: DrivenWorld) -> NDArray[np.float64]:
     """Return all that stands in a world as boxes: x0, y0, x1, y1 in ``map`` [m], shape (n, 4)."""
     pieces = world.sim.home.furniture.values()
     return np.array([piece.box for piece in pieces if piece.box is not None], np.float64)
-
-
-__all__ = ["MissionError", "RehearsalDrive"]

@@ -1,7 +1,7 @@
-"""Build the world that a plan is rehearsed in: the map, with all that was seen last standing in it.
+"""Build the world that a plan is rehearsed in: the map, and all that was seen last stands in it.
 
-What the planner remembers stands there for physics and lidar, and is known to the planner's obstacle
-memory as it is to the real one. The robot is the one described, on wheels of the simulator's.
+What the planner remembers stands there for physics and lidar, and the planner there remembers it,
+too. The robot is the one described, on wheels of the simulator's.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from planner.plan import Step
 
 BESIDE_M = 0.06
-"""From the robot's rim: what is marked nearer than this is a cell's rounding, or the robot itself."""
+"""From the robot's rim: what is marked nearer is a cell's rounding, or the robot itself."""
 PACE = Pace(planner_hears=2)
 """Statuses come every 50 ms: a look each 20 ms hears them in time, and costs half."""
 _VIRTUAL = {"kind": "sim"}
@@ -97,9 +97,7 @@ def world_of(asked: DriveRequest, body: bytes, steps: tuple[Step, ...]) -> Drive
     return world
 
 
-def _seen(
-    asked: DriveRequest, grid: GridMap, cells: bytes, radius_m: float
-) -> NDArray[np.bool_]:
+def _seen(asked: DriveRequest, grid: GridMap, cells: bytes, radius_m: float) -> NDArray[np.bool_]:
     """Return the cells that what was seen last fills, off the robot itself."""
     seen = unpack_cells(cells, (grid.height, grid.width))
     columns, rows = np.meshgrid(np.arange(grid.width), np.arange(grid.height))
@@ -108,4 +106,5 @@ def _seen(
     for x_m, y_m, disc_m in asked.discs:
         seen |= np.hypot(xs - x_m, ys - y_m) <= disc_m
     begins, off_m = asked.begins, radius_m + BESIDE_M
-    return seen & (np.hypot(xs - begins.x_m, ys - begins.y_m) > off_m)
+    seen[np.hypot(xs - begins.x_m, ys - begins.y_m) <= off_m] = False
+    return seen

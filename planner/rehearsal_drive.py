@@ -30,6 +30,7 @@ from processes.worker import STREAM_ERRORS, read_frame, reap, send_frame, spawn
 from processes.worker_protocol import pack
 
 if TYPE_CHECKING:
+    from asyncio.subprocess import Process
     from collections.abc import Callable, Iterator
 
     from planner.navigation import ObstacleReport
@@ -57,6 +58,7 @@ class RehearsalDrives:
         robot: RobotDescription,
         layer: Callable[[], ObstacleReport | None] = lambda: None,
         things: Callable[[], tuple[Thing, ...]] = lambda: (),
+        module: str = MODULE,
     ) -> None:
         """Take what is known of the surroundings; nothing is started.
 
@@ -66,12 +68,20 @@ class RehearsalDrives:
             robot: its description.
             layer: what the lidar saw and the map does not know.
             things: what the camera saw.
+            module: drives, as a worker process.
         """
         self._rehearser, self._site, self._robot = rehearser, site, robot
-        self._layer, self._things = layer, things
+        self._layer, self._things, self._module = layer, things, module
         self.newest: DrivenRehearsal | None = None
         self._begins = False
         self._driving: asyncio.Task[None] | None = None
+        self._process: Process | None = None
+        self._ending: asyncio.Task[None] | None = None
+
+    @property
+    def pid(self) -> int | None:
+        """Return the id of the process that drives, while there is one."""
+        return None if self._process is None else self._process.pid
 
     @property
     def is_busy(self) -> bool:
@@ -98,6 +108,8 @@ class RehearsalDrives:
         if driving is not None and not driving.done():
             driving.cancel()
             await asyncio.gather(driving, return_exceptions=True)
+            if self._ending is not None:
+                await self._ending
             self._change(state="cancelled")
         return self.newest
 
@@ -157,24 +169,39 @@ class RehearsalDrives:
 
     async def _drive(self, frame: bytes) -> None:
         """Follow one process to its end; whatever becomes of it, the newest says so."""
-        began_s, process = monotonic(), None
+        code = None
+        starting = asyncio.create_task(spawn(worker_command(self._module)))
         try:
             async with asyncio.timeout(LONGEST_REAL_S):
-                process = await spawn(worker_command(MODULE))
-                await send_frame(process, frame)
-                is_over = False
-                while not is_over:
-                    told, _ = await read_frame(process)
-                    is_over = told["is_over"]
-                    self._note(DrivenPlan.model_validate(told["driven"]), monotonic() - began_s)
-            self._change(state="done")
+                await self._follow(await asyncio.shield(starting), frame)
         except TimeoutError:
-            self._fail("rehearsal_timed_out")
+            code = "rehearsal_timed_out"
         except STREAM_ERRORS:
-            self._fail("rehearsal_died")
+            code = "rehearsal_died"
         finally:
-            if process is not None:
-                await asyncio.shield(reap(process))
+            # Shielded, and waited for by who cancels: no process is left that nobody waits for.
+            self._ending = asyncio.create_task(self._end(starting))
+            await asyncio.shield(self._ending)
+        if code is None:
+            self._change(state="done")
+        else:
+            self._change(state="failed", code=code, message=say(f"problem.{code}"))
+
+    async def _follow(self, process: Process, frame: bytes) -> None:
+        """Tell a process what to drive, and note what it tells until it is over."""
+        began_s, self._process = monotonic(), process
+        await send_frame(process, frame)
+        is_over = False
+        while not is_over:
+            told, _ = await read_frame(process)
+            is_over = told["is_over"]
+            self._note(DrivenPlan.model_validate(told["driven"]), monotonic() - began_s)
+
+    async def _end(self, starting: asyncio.Task[Process]) -> None:
+        """Kill the process, which may be starting still, and wait until it is gone."""
+        with contextlib.suppress(OSError):
+            await reap(await starting)
+        self._process = None
 
     def _note(self, driven: DrivenPlan, took_s: float) -> None:
         """Put what was driven so far beside what was foretold, step by step."""
@@ -192,9 +219,6 @@ class RehearsalDrives:
             took_s=round(took_s, 1),
             times_faster=round(driven.seconds / took_s, 1) if took_s > 0.0 else None,
         )
-
-    def _fail(self, code: str) -> None:
-        self._change(state="failed", code=code, message=say(f"problem.{code}"))
 
     def _change(self, **fields: object) -> None:
         if self.newest is not None:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, GoToPose, Language
     from planner.rehearsal import Rehearser
+    from planner.rehearsal_drive import RehearsalDrives
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
@@ -241,6 +242,9 @@ class Services(Protocol):
 
     @property
     def rehearser(self) -> Rehearser: ...
+
+    @property
+    def rehearsal_drives(self) -> RehearsalDrives: ...
 
     @property
     def robot(self) -> Robot: ...

@@ -68,7 +68,7 @@ def mapped_home(site_dir: Path) -> Home:
 
 def occupied_cells(grid: GridMap) -> NDArray[np.bool_]:
     """Return which cells of a map hold something, shape (rows, columns)."""
-    return cell_array(grid) == OCCUPIED
+    return np.equal(cell_array(grid), OCCUPIED)
 
 
 def home_of_cells(grid: GridMap, occupied: NDArray[np.bool_], dock: Pose2, where: str) -> Home:
