@@ -30,6 +30,7 @@ from planner.perception.object_store import ThingStore
 from planner.perception_factory import Opening, eyes_of, looker_of, picture_limits, spent_by
 from planner.plan_display import PlanDisplay
 from planner.rehearsal import Rehearser
+from planner.rehearsal_drive import RehearsalDrives
 from planner.robot_service import LinkedRobot
 from planner.settings import list_keys, load_settings
 from planner.settings_desk import SettingsDesk
@@ -55,6 +56,8 @@ if TYPE_CHECKING:
 
     from planner.brain.endpoint import EndpointBrain
     from planner.brain.usage_meter import Meter
+    from planner.navigation import ObstacleReport
+    from planner.perception import Thing
     from planner.settings import Settings
 
 log = logging.getLogger(__name__)
@@ -157,6 +160,19 @@ class Planner:
         book, points = lambda: self.goals.loop.book, self.robot.obstacles
         return Rehearser(where, self.description, ways, book, points)
 
+    @cached_property
+    def rehearsal_drives(self) -> RehearsalDrives:
+        """Drive plans in the simulator, in a process of its own while one is driven."""
+        goals, sight = self.goals, self.eyes
+
+        def layer() -> ObstacleReport | None:
+            return None if goals.obstacles is None else goals.obstacles.report
+
+        def things() -> tuple[Thing, ...]:
+            return sight.sight.things
+
+        return RehearsalDrives(self.rehearser, self.memory, self.description, layer, things)
+
     @property
     def voice(self) -> VoiceAbilities:
         """Show what is heard and spoken."""
@@ -225,6 +241,7 @@ class Planner:
 
     async def close(self) -> None:
         """End all parts; goals that ran come back paused in the next process."""
+        await self.rehearsal_drives.close()
         await self.orders.keeper.close()
         await self.skills.close()
         await self.recorder.close()

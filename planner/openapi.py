@@ -20,7 +20,7 @@ class _EmptyServices:
     """Stand where services would: the contract is read, no route is called."""
 
     goals = None
-    rehearser = None
+    rehearser = rehearsal_drives = None
     robot = None
     ears = None
     fences = None

@@ -181,6 +181,10 @@ class Rehearser:
         Raises:
             RehearsalError: it is no plan that moves, or the robot's place is not known.
         """
+        return await self.of_plan(await self.plan_of(text, language))
+
+    async def plan_of(self, text: str, language: Language | None = None) -> PlanRecord:
+        """Return what the built-in reader makes of a sentence; raises as :meth:`of_text` does."""
         pose = self._pose()
         request = ThinkRequest(
             text=text,
@@ -198,7 +202,7 @@ class Rehearser:
             except SkillFailed as failed:
                 said = failed.problem.outcome(failed.name).message
                 raise RehearsalError("rehearsal_no_plan", str(failed), said) from None
-        return await self.of_plan(plan_record(plan))
+        return plan_record(plan)
 
     async def of_plan(self, plan: PlanRecord | None) -> Rehearsal:
         """Rehearse a plan from here and now: of one under way, what is left of it.

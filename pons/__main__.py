@@ -27,6 +27,7 @@ EXIT_USAGE = 2
 _FOLLOW = frozenset({
     "say", "answer", "confirm", "cancel", "pause", "resume", "places", "orders", "replies", "why",
     "arm", "reset", "people", "goals", "log", "open", "down", "logs", "skill",
+    "go", "rehearse",
 })  # fmt: skip
 """Words to a robot that runs: in a folder without one, this user's only one is meant."""
 EXIT_UNREAD = 141
@@ -194,6 +195,14 @@ def _goal(settings: LaunchSettings, said: argparse.Namespace) -> int:
         told = said.wav or " ".join(said.text)
         wait = not said.no_wait
         return goals.say(settings, told, wait=wait, replace=said.replace, as_json=said.json)
+    if said.word == "go":
+        from pons import pointing
+
+        return pointing.run(settings, said)
+    if said.word == "rehearse":
+        from pons import rehearse
+
+        return rehearse.run(settings, said)
     if said.word == "answer":
         return goals.answer(settings, said.words, wait=not said.no_wait)
     if said.word == "confirm":

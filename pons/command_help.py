@@ -81,6 +81,23 @@ HELP = {
         "pons say 去厨房",
         "pons say --json --no-wait go home",
     ),
+    "go": _entry(
+        "send the robot to a place by its name, or to a point of the map",
+        "Send the robot to a place, or to X and Y [m] of its map and a heading [degrees, counter-"
+        "clockwise], and follow it. A point that can't be stood on is refused with its reason.",
+        "pons go kitchen",
+        "pons go 1.5 4.2",
+        "pons go 1.5 4.2 90 --no-wait",
+    ),
+    "rehearse": _entry(
+        "show what a sentence would do, before anything moves",
+        "Show each step's way with metres, seconds and its narrowest place; nothing moves and no"
+        " goal is made. With --drive the whole plan is driven in the simulator, from where the "
+        "robot stands and among what it saw last. Exit status 1: some step of it does not go.",
+        'pons rehearse "go to the kitchen, then go home"',
+        'pons rehearse --drive "patrol the kitchen and the study"',
+        "pons rehearse --goal 39743323ac9e --json",
+    ),
     "answer": _entry(
         "answer a goal's question: the one that asks, or named",
         "Answer the question of the goal that asks; name the goal first where several do.",

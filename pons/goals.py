@@ -88,12 +88,12 @@ def say(
     except (PlannerDown, PlannerProblem) as trouble:
         if reading is not StopReading.NONE:
             return stop.run(settings, as_json=as_json)
-        return _trouble(trouble)
+        return tell_trouble(trouble)
     if not as_json:
         print(goal_line(goal), flush=True)
     elif not wait:
         print(json.dumps(goal, ensure_ascii=False, indent=1))
-    return _follow(settings, goal["id"], language, as_json=as_json) if wait else 0
+    return follow(settings, goal["id"], language, as_json=as_json) if wait else 0
 
 
 def _send_sound(settings: LaunchSettings, path: Path, *, replace: bool) -> dict[str, Any]:
@@ -141,7 +141,7 @@ def act(settings: LaunchSettings, verb: str, goal_id: str | None) -> int:
     except (PlannerDown, PlannerProblem) as trouble:
         if verb == "resume" and goal_id is None and isinstance(trouble, PlannerDown):
             return _ask_bridge(settings)
-        return _trouble(trouble)
+        return tell_trouble(trouble)
     except _NoProof as trouble:
         print(str(trouble), file=sys.stderr)
         return EXIT_UNREACHED
@@ -235,9 +235,9 @@ def answer(settings: LaunchSettings, words: list[str], *, wait: bool) -> int:
         body = {"text": text, "source": SOURCE}
         goal = call(settings, "POST", f"/v1/goals/{chosen['id']}/answer", body)
     except (PlannerDown, PlannerProblem) as trouble:
-        return _trouble(trouble)
+        return tell_trouble(trouble)
     print(goal_line(goal), flush=True)
-    return _follow(settings, goal["id"], language_of(text)) if wait else 0
+    return follow(settings, goal["id"], language_of(text)) if wait else 0
 
 
 def confirm(settings: LaunchSettings, goal_id: str | None, *, wait: bool) -> int:
@@ -249,9 +249,9 @@ def confirm(settings: LaunchSettings, goal_id: str | None, *, wait: bool) -> int
             return 1
         goal = call(settings, "POST", f"/v1/goals/{chosen}/confirm", {"source": SOURCE})
     except (PlannerDown, PlannerProblem) as trouble:
-        return _trouble(trouble)
+        return tell_trouble(trouble)
     print(goal_line(goal), flush=True)
-    return _follow(settings, goal["id"], language_of(str(goal["text"]))) if wait else 0
+    return follow(settings, goal["id"], language_of(str(goal["text"]))) if wait else 0
 
 
 def _goals(settings: LaunchSettings) -> list[dict[str, Any]]:
@@ -278,7 +278,7 @@ def _asking(goals: list[dict[str, Any]], states: tuple[str, ...]) -> dict[str, A
     return None
 
 
-def _follow(settings: LaunchSettings, goal_id: str, language: str, *, as_json: bool = False) -> int:
+def follow(settings: LaunchSettings, goal_id: str, language: str, *, as_json: bool = False) -> int:
     """Print each change until the goal ends or needs a person; as JSON, only how it ended."""
     shown = ShownProgress(silent=as_json)
     begun_s = heard_s = time.monotonic()
@@ -289,11 +289,11 @@ def _follow(settings: LaunchSettings, goal_id: str, language: str, *, as_json: b
                 heard_s = time.monotonic()
             except PlannerDown as trouble:
                 if time.monotonic() - heard_s > LOST_LIMIT_S:
-                    return _trouble(trouble)
+                    return tell_trouble(trouble)
                 time.sleep(POLL_S)
                 continue
             except PlannerProblem as trouble:
-                return _trouble(trouble)
+                return tell_trouble(trouble)
             shown.show(goal)
             if (
                 not as_json
@@ -336,7 +336,7 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
     return EXIT.get(str(goal["state"]), EXIT_WAITING)
 
 
-def _trouble(trouble: Exception) -> int:
+def tell_trouble(trouble: Exception) -> int:
     """Say what went wrong, once; return 3 where the planner refused, 6 where nobody answers."""
     if isinstance(trouble, PlannerProblem):
         print(f"refused: {refusal(trouble, trouble.told)}", file=sys.stderr)

@@ -133,6 +133,21 @@ def _saying(words: Words) -> None:
     said.add_argument("--no-wait", action="store_true", help="return when the goal is accepted")
     said.add_argument("--replace", action="store_true", help="forget the running goal")
     said.add_argument("--json", action="store_true", help="the goal as JSON, nothing else")
+    sent = add_command(words, "go")
+    sent.add_argument(
+        "where", nargs="+", metavar="PLACE | X Y [HEADING]", help="name, or m and deg"
+    )
+    sent.add_argument("--map", metavar="ID", help="the map that the point is on; else the robot's")
+    sent.add_argument("--no-wait", action="store_true", help="return when the goal is accepted")
+    sent.add_argument("--replace", action="store_true", help="forget the running goal")
+    sent.add_argument("--json", action="store_true", help="the goal as JSON, nothing else")
+    tried = add_command(words, "rehearse")
+    tried.add_argument("text", nargs="*", help="the sentence; it is not given")
+    tried.add_argument("--goal", metavar="GOAL", help="a goal's plan, by its id, in its place")
+    tried.add_argument(
+        "--drive", action="store_true", help="drive it in the simulator; some seconds"
+    )
+    tried.add_argument("--json", action="store_true", help="as JSON")
     told = add_command(words, "answer")
     told.add_argument("words", nargs="+", metavar="[GOAL] TEXT", help="its id first, where several")
     told.add_argument("--no-wait", action="store_true", help="return when the answer is taken")

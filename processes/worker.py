@@ -170,7 +170,7 @@ class SupervisedWorker:
         if self._process is None:
             raise self._death_failure()
         try:
-            await _send_frame(self._process, frame)
+            await send_frame(self._process, frame)
         except OSError:
             raise self._death_failure() from None
 
@@ -213,13 +213,13 @@ class SupervisedWorker:
     async def _listen(self, process: Process) -> None:
         """Hand answers to their callers, until the stream ends."""
         async with asyncio.timeout(self._first_word_s):
-            greeting, _ = await _read_frame(process)
+            greeting, _ = await read_frame(process)
         if "refused" in greeting:
             raise self._codes.to_failure(greeting["refused"], greeting["detail"])
         self._check_greeting(greeting["ready"])
         self._ready.set()
         while True:
-            told = await _read_frame(process)
+            told = await read_frame(process)
             self._backoff.reset()
             waiting = self._waiting.get(int(told[0]["number"]))
             if waiting is not None and not waiting.done():  # else its caller has gone away
@@ -245,7 +245,7 @@ async def spawn(command: Sequence[str]) -> Process:
     )
 
 
-async def _send_frame(process: Process, frame: bytes) -> None:
+async def send_frame(process: Process, frame: bytes) -> None:
     """Hand over a frame, and wait while the pipe is full. Raises OSError where it is gone."""
     if process.stdin is None:
         raise BrokenPipeError("the process has no standard input")
@@ -253,7 +253,7 @@ async def _send_frame(process: Process, frame: bytes) -> None:
     await process.stdin.drain()
 
 
-async def _read_frame(process: Process) -> Frame:
+async def read_frame(process: Process) -> Frame:
     """Return the worker's next frame. Raises one of :data:`STREAM_ERRORS`."""
     if process.stdout is None:
         raise BrokenPipeError("the process has no standard output")
@@ -263,8 +263,8 @@ async def _read_frame(process: Process) -> Frame:
 
 async def exchange(process: Process, frame: bytes) -> Frame:
     """Hand over a frame and return the next one that comes. Raises one of STREAM_ERRORS."""
-    await _send_frame(process, frame)
-    return await _read_frame(process)
+    await send_frame(process, frame)
+    return await read_frame(process)
 
 
 def kill(process: Process) -> None:

@@ -60,15 +60,16 @@ class SimRobot:
         hardware: Hardware | None = None,
         domain: Domain | None = None,
         boot_id: str = "sim",
+        home: Home | None = None,
     ) -> None:
-        """Build the home of ``site_dir`` and stand the robot at its dock, or at ``start``.
+        """Build the home of ``site_dir``, or ``home``; stand the robot at its dock, or ``start``.
 
         Raises:
             ConfigError: the site's home.yaml is refused, or the domain can't be in that home.
         """
         self.robot = robot or RobotDescription()
         self.domain = domain or Domain()
-        self.home: Home = staged_home(load_home(site_dir), self.domain)
+        self.home: Home = staged_home(home or load_home(site_dir), self.domain)
         self.boot_id = boot_id
         self.faults = Faults()
         self._ice = (False, False)

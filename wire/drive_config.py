@@ -22,7 +22,7 @@ REPORTS = 2.5
 """A drive that reports seldom may lose one report and send the next half a period late."""
 
 _BATTERY_KEYS = ("battery_empty_v", "battery_full_v")
-_LINE_KEYS = ("port", "baud", "ticks_per_turn", *_BATTERY_KEYS)
+LINE_KEYS = ("port", "baud", "ticks_per_turn", *_BATTERY_KEYS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +160,7 @@ def _wrong_keys(drive: DriveConfig) -> Iterator[str]:
     for key in needed:
         if getattr(drive, key) is None:
             yield f"drive.{key} is missing: kind {drive.kind!r} needs {', '.join(needed)}"
-    for key in _LINE_KEYS:
+    for key in LINE_KEYS:
         if key not in needed + useful and getattr(drive, key) is not None:
             users = [name for name, kind in DRIVE_KINDS.items() if key in kind.needed + kind.useful]
             yield f"drive.{key} is for {', '.join(users)}, not for kind {drive.kind!r}"

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from planner.perception import Picture, Sight, Thing
     from planner.plan import Goal, Language, Means, Step
     from planner.rehearsal import Rehearser
+    from planner.rehearsal_drive import RehearsalDrives
     from planner.settings_desk import SettingsDesk
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.skill_files.folder import SkillFolder
@@ -258,6 +259,9 @@ class Services(Protocol):
 
     @property
     def rehearser(self) -> Rehearser: ...
+
+    @property
+    def rehearsal_drives(self) -> RehearsalDrives: ...
 
     @property
     def robot(self) -> Robot: ...

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from fastapi import APIRouter
 from pydantic import Field, model_validator
 
 from planner.api.interfaces import Services
 from planner.api.problems import HttpProblem
 from planner.api.schemas import MAX_GOAL_CHARACTERS, Body, law_broken
+from planner.driven_rehearsal import DrivenRehearsal
 from planner.language.catalogue import say
 from planner.plan import Language
 from planner.rehearsal import Rehearsal, RehearsalError
@@ -31,7 +35,7 @@ class RehearsalAsk(Body):
 
 
 def routes(services: Services) -> APIRouter:
-    """Return the route."""
+    """Return the routes."""
     router = APIRouter(prefix="/v1", tags=["goals"])
 
     @router.post("/rehearsals", operation_id="rehearse")
@@ -44,13 +48,61 @@ def routes(services: Services) -> APIRouter:
         Raises:
             HttpProblem: ``rehearsal_no_plan``, ``rehearsal_without_pose``, ``rehearsal_too_long``.
         """
-        try:
+        with _problems():
             if ask.goal is not None:
                 return await services.rehearser.of_plan(services.goals.goal(ask.goal).plan)
             return await services.rehearser.of_text(ask.text or "", ask.language)
-        except RehearsalError as error:
-            said = error.said or say(f"problem.{error.code}")
-            told = said.model_dump()
-            raise HttpProblem(STATUS, error.code, error.detail, message=told) from None
 
+    _driving(router, services)
     return router
+
+
+def _driving(router: APIRouter, services: Services) -> None:
+    @router.post("/rehearsals/drive", status_code=202, operation_id="drive_rehearsal")
+    async def drive(ask: RehearsalAsk) -> DrivenRehearsal:
+        """Drive a whole plan in the simulator, from here and now; the robot does not move.
+
+        It is driven in a process of its own, among what was seen last; ``GET`` tells how it goes.
+
+        Raises:
+            HttpProblem: ``rehearsal_running``, ``rehearsal_map_grows``, and those of a rehearsal.
+        """
+        drives = services.rehearsal_drives
+        with _problems():
+            if ask.goal is not None:
+                return await drives.of_plan(services.goals.goal(ask.goal).plan)
+            return await drives.of_text(ask.text or "", ask.language)
+
+    @router.get("/rehearsals/drive", operation_id="get_driven_rehearsal")
+    async def get() -> DrivenRehearsal:
+        """Return the newest rehearsal in the simulator, under way or over.
+
+        Raises:
+            HttpProblem: ``rehearsal_none``.
+        """
+        return _newest(services.rehearsal_drives.newest)
+
+    @router.delete("/rehearsals/drive", operation_id="cancel_rehearsal")
+    async def cancel() -> DrivenRehearsal:
+        """End the rehearsal in the simulator, if one runs, and return what it came to.
+
+        Raises:
+            HttpProblem: ``rehearsal_none``.
+        """
+        return _newest(await services.rehearsal_drives.cancel())
+
+
+def _newest(newest: DrivenRehearsal | None) -> DrivenRehearsal:
+    if newest is None:
+        said = say("problem.rehearsal_none").model_dump()
+        raise HttpProblem(404, "rehearsal_none", "no plan was driven yet", message=said)
+    return newest
+
+
+@contextmanager
+def _problems() -> Iterator[None]:
+    try:
+        yield
+    except RehearsalError as error:
+        told = (error.said or say(f"problem.{error.code}")).model_dump()
+        raise HttpProblem(STATUS, error.code, error.detail, message=told) from None

@@ -93,6 +93,13 @@ class ObstacleLayer:
         self._mark_and_clear(mapped.grid, _leave_out(near, movers), ends, lidar_xy_m)
         return news
 
+    def recall(self, obstacles: Mask, suspicions: Mask) -> None:
+        """Begin with what another memory held: it stood there, and is out of sight."""
+        both = obstacles | suspicions
+        self._hits[both] = SURE_HITS
+        self._last_s[both] = np.where(obstacles[both], -2.0 * NEWEST_S, -STOOD_FADES_S - 1.0)
+        self._first_s[both] = self._last_s[both] - STOOD_S
+
     @property
     def obstacles(self) -> Mask:
         """Return the cells that hold something, in sight or remembered."""

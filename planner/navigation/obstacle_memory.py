@@ -66,6 +66,11 @@ class ObstacleMemory:
         news = self._layer.observe(mapped, view, self._tracker.expected_points(seen.at_s))
         self._tracker.update(news, seen.at_s)
 
+    def recall(self, cells: bytes, suspicions: bytes) -> None:
+        """Begin with what another memory told in its report: it is out of sight here."""
+        self._layer.recall(unpack_cells(cells, self._shape), unpack_cells(suspicions, self._shape))
+        self._version += 1
+
     def leave_movers_out(
         self, points: tuple[tuple[float, float], ...]
     ) -> tuple[tuple[float, float], ...]:
@@ -148,3 +153,12 @@ class ObstacleMemory:
 def _pack_cells(cells: NDArray[np.bool_]) -> bytes:
     rows, columns = np.nonzero(cells)
     return np.column_stack([columns, rows])[:MAX_CELLS].astype("<u2").tobytes()
+
+
+def unpack_cells(packed: bytes, shape: tuple[int, int]) -> NDArray[np.bool_]:
+    """Return the cells of a report, for a map of so many rows and columns."""
+    cells = np.zeros(shape, np.bool_)
+    columns, rows = np.frombuffer(packed, "<u2").reshape(-1, 2).T
+    inside = (columns < shape[1]) & (rows < shape[0])
+    cells[rows[inside], columns[inside]] = True
+    return cells

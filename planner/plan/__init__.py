@@ -29,6 +29,7 @@ from planner.plan.goal import (
     fault,
     places_of,
     plan_record,
+    step_of,
 )
 from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.quiet_hours import QuietHours
@@ -208,6 +209,7 @@ __all__ = [
     "plan_record",
     "root_of",
     "say_same",
+    "step_of",
     "steps_of",
     "words_of",
 ]

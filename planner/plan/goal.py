@@ -12,7 +12,7 @@ from pydantic import AwareDatetime, Field
 from planner.plan.base import Bilingual, Frozen, Language
 from planner.plan.outcome import Code, Outcome, Spot
 from planner.plan.responses import AnswerPlan, Clarify, Option, Refuse, StepPlan
-from planner.plan.steps import ClockTime, Side, Span, Step, UseSkill
+from planner.plan.steps import MODELS, ClockTime, Side, Span, Step, UseSkill
 from planner.plan.tree import StepNode, StepRole, list_nodes
 
 
@@ -227,6 +227,13 @@ def _step_record(node: StepNode) -> StepRecord:
     if isinstance(node.step, UseSkill):  # for showing: its own steps take its place before a walk
         fields = {"kind": node.step.kind, "text": node.step.name}
     return StepRecord.model_validate({**fields, "depth": node.depth, "role": node.role})
+
+
+def step_of(record: StepRecord) -> Step:
+    """Return the step that a record without held steps shows. Raises ValueError: it can't be."""
+    model = MODELS[record.kind]
+    fields = {name: getattr(record, name) for name in model.model_fields}
+    return model.model_validate(fields)  # type: ignore[return-value]  # each model is a step
 
 
 def places_of(step: Step | ClockTime | StepRecord) -> tuple[str, ...]:

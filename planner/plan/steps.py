@@ -327,14 +327,12 @@ STANDS = frozenset({"recall"})
 """What names a place and drives nowhere."""
 GIVEN = frozenset({"go_to_pose"})
 """What a person alone gives, by pointing: no brain is offered it, and none may write it."""
+MODELS = {get_args(model.model_fields["kind"].annotation)[0]: model for model in _MODELS}
+"""Every step, by its kind."""
 CALLS = frozenset({"use_skill"})
 """What stands for other steps, which take its place before a plan is judged: no mission walks it,
 and it is offered where there are skills alone."""
-EVERY_KIND = (
-    frozenset(get_args(model.model_fields["kind"].annotation)[0] for model in _MODELS)
-    - GIVEN
-    - CALLS
-)
+EVERY_KIND = frozenset(MODELS) - GIVEN - CALLS
 """What a brain's plan may hold at all; a robot's own `runnable` is a part of it."""
 CONTROL = frozenset({"if", "try", "repeat"})
 """They hold steps and do nothing by themselves."""

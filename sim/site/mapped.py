@@ -63,13 +63,33 @@ def mapped_home(site_dir: Path) -> Home:
     dock = next((spot.pose for spot in spots.places if spot.id == spots.home), None)
     if dock is None:
         raise ConfigError("dock_unknown", f"{path}: home {spots.home!r} is no place of it")
-    boxes = wall_boxes(grid)
+    return home_of_cells(grid, occupied_cells(grid), dock, str(site_dir))
+
+
+def occupied_cells(grid: GridMap) -> NDArray[np.bool_]:
+    """Return which cells of a map hold something, shape (rows, columns)."""
+    return np.equal(cell_array(grid), OCCUPIED)
+
+
+def home_of_cells(grid: GridMap, occupied: NDArray[np.bool_], dock: Pose2, where: str) -> Home:
+    """Return a home whose furniture is these cells of a map.
+
+    Args:
+        grid: the map.
+        occupied: its cells that hold something, shape (rows, columns).
+        dock: where a robot starts, in ``map``.
+        where: names the map in errors.
+
+    Raises:
+        ConfigError: ``map_too_ragged`` or ``map_far``.
+    """
+    boxes = boxes_of_cells(grid, occupied)
     if len(boxes) > MOST_BOXES:
-        text = f"{site_dir}: its walls make {len(boxes)} boxes; at most {MOST_BOXES} are simulated"
+        text = f"{where}: its walls make {len(boxes)} boxes; at most {MOST_BOXES} are simulated"
         raise ConfigError("map_too_ragged", text)
     around = _around(grid)
     if max(map(abs, around)) > _BOUNDS_M:
-        text = f"{site_dir}: it reaches to {max(map(abs, around)):.0f} m; at most {_BOUNDS_M:g}"
+        text = f"{where}: it reaches to {max(map(abs, around)):.0f} m; at most {_BOUNDS_M:g}"
         raise ConfigError("map_far", text)
     wall = HomeWall()
     at = (dock.x_m, dock.y_m, degrees(wrap(dock.yaw_rad)))
@@ -94,7 +114,11 @@ def wall_boxes(grid: GridMap) -> list[Box]:
     Cells in a row become one box, and equal boxes of rows above one another; along columns where
     that gives fewer.
     """
-    occupied = cell_array(grid) == OCCUPIED
+    return boxes_of_cells(grid, occupied_cells(grid))
+
+
+def boxes_of_cells(grid: GridMap, occupied: NDArray[np.bool_]) -> list[Box]:
+    """Merge these cells of a map into boxes, likewise."""
     by_row = _boxes(occupied)
     by_column = _boxes(occupied.T)
     cells = (

@@ -6,10 +6,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
+from lockstep.bridge_process import Step
 from planner.site.places import Names
 from planner.site.taught_places import TaughtPlace
 from tests.bridge.recorded import Taken
-from tools.lockstep.bridge_process import Step
 from wire import Pose2
 
 Drive = tuple[Path, Pose2, Pose2, list[Taken]]

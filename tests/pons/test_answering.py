@@ -164,5 +164,5 @@ def test_a_plan_that_waits_for_a_load_is_explained_once(
     monkeypatch.setattr(goals, "POLL_S", 0.01)
     planner.asks_until_planned = 4
     planner.goals = [goal("g1", "planning", text)]
-    assert goals._follow(settings, "g1", goals.language_of(text)) == 0
+    assert goals.follow(settings, "g1", goals.language_of(text)) == 0
     assert capsys.readouterr().out.count(told) == 1

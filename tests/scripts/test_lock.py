@@ -113,6 +113,7 @@ PARTS = (
     "sensors",
     "ros2",
     "sim",
+    "lockstep",
     "pons",
 )
 

@@ -21,9 +21,10 @@ PRODUCT = {
     "sensors",
     "ros2",
     "sim",
+    "lockstep",
     "pons",
 }
-LEFT_OUT = {"tools", "tests", "scripts", "examples", "train", "bench", "attack", "lockstep"}
+LEFT_OUT = {"tools", "tests", "scripts", "examples", "train", "bench", "attack"}
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, TypeVar
 
+from lockstep.planner_process import WALL_OFFSET_S
 from planner.brain.image_questions import ImageDescription, ImageSighting, NotThere
 from planner.language.schedule import ScheduleCommand, can_lean
 from planner.language.sentence import parse
@@ -37,7 +38,6 @@ from planner.plan.slots import steps_of
 from planner.state_database import StateDatabase
 from tools.evals.scripts import Reaction
 from tools.lockstep import LockstepWorld, TooLong
-from tools.lockstep.planner_process import WALL_OFFSET_S
 from tools.lockstep.standing_world import StandingWorld
 
 if TYPE_CHECKING:

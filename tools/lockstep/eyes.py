@@ -10,6 +10,7 @@ import asyncio
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from lockstep.latencies import TICK_S
 from planner.perception.frame_update import Scenery, saw
 from planner.perception.interfaces import MapPoint, Picture, PointRefusal
 from planner.perception.object_tracker import ObjectMemory, aged
@@ -17,16 +18,15 @@ from planner.perception.pixel_to_map import point_on_map
 from planner.perception.pose_buffer import Poses
 from planner.perception.projection import View
 from planner.perception.snapshot import LookSnapshot, Sight
-from tools.lockstep.latencies import TICK_S
 from tools.lockstep.truth_detector import NAMES, Finder, header_of
 from wire import Image, Localization, Odometry
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from lockstep.scene import LockstepScene
     from planner.perception.snapshot import Detection
     from sim import SimRobot
-    from tools.lockstep.scene import LockstepScene
 
 PERIOD_TICKS, LATE_TICKS = 20, 12
 """5 Hz, and 0.12 s from the picture to the sight."""

@@ -10,7 +10,7 @@ from collections import Counter, deque
 from math import hypot
 from typing import TYPE_CHECKING
 
-from tools.lockstep.latencies import TICK_S
+from lockstep.latencies import TICK_S
 from wire import Mode, Pose2, Twist2
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from tools.lockstep.serial_line import PATH, SerialLine
 from wire import keys
 
 if TYPE_CHECKING:
+    from lockstep.bus import Port
     from sim import SimRobot
-    from tools.lockstep.bus import Port
     from wire import LidarStatus
 
 STATE_TICKS = 50

@@ -13,8 +13,8 @@ from localization.node import LocalizerNode
 if TYPE_CHECKING:
     from localization.global_search import Candidate
     from localization.relocation import SearchRequest
-    from tools.lockstep.bus import Port
-    from tools.lockstep.scene import LockstepScene
+    from lockstep.bus import Port
+    from lockstep.scene import LockstepScene
     from wire import Localization
     from wire.session import Session
 

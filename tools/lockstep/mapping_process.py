@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
     from localization.global_search import Candidate
     from localization.mapping.scan_tracker import KeyframeLink
-    from tools.lockstep.bus import Port
-    from tools.lockstep.scene import LockstepScene
+    from lockstep.bus import Port
+    from lockstep.scene import LockstepScene
     from wire.session import Session
 
 

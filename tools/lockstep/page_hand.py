@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
+from lockstep.latencies import TICK_S
 from planner.api.hand import Hand, HandFrame, is_taken, relay
 from planner.robot_service import LinkedRobot
-from tools.lockstep.latencies import TICK_S
 
 if TYPE_CHECKING:
     from tools.lockstep.together import LockstepWorld

@@ -9,17 +9,17 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from lockstep.bus import LockstepBus
+from lockstep.goal_handle import GoalHandle
+from lockstep.latencies import TICK_S, Pace, ticks
+from lockstep.planner_process import Notebook, PlannerProcess
+from lockstep.scene import folder_of, scene
+from lockstep.world import STAND_IN_ROBOT, START_S, TooLong
 from planner.mission.departure import way_back_of
 from planner.plan import GoalState
 from planner.site.site_view import facts_of
-from tools.lockstep.bus import LockstepBus
 from tools.lockstep.eyes import PerceptionProcess
-from tools.lockstep.goal_handle import GoalHandle
-from tools.lockstep.latencies import TICK_S, Pace, ticks
-from tools.lockstep.planner_process import Notebook, PlannerProcess
-from tools.lockstep.scene import folder_of, scene
 from tools.lockstep.truth_detector import TruthFinder
-from tools.lockstep.world import STAND_IN_ROBOT, START_S, TooLong
 from wire import (
     PROTOCOL,
     Action,

@@ -16,7 +16,7 @@ from wire import Pose2
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from tools.lockstep.world import World
+    from lockstep.world import World
 
 __all__ = ["PASSES_M", "STOPS_M", "TOUCHES_M", "Manner", "Walker"]
 EVERY = 5

@@ -9,7 +9,7 @@ from copy import deepcopy
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
-    from tools.lockstep.world import World
+    from lockstep.world import World
 
 W = TypeVar("W", bound="World")
 

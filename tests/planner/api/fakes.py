@@ -32,6 +32,7 @@ from planner.people import People
 from planner.perception import Picture, Sight, Thing
 from planner.plan import Goal, GoalState, Language, Means, Step
 from planner.rehearsal import Rehearser
+from planner.rehearsal_drive import RehearsalDrives
 from planner.settings import Settings
 from planner.settings_desk import SettingsDesk
 from planner.setup_switch import ProcessSwitch
@@ -399,6 +400,9 @@ class FakeServices:
             RobotDescription(),
             StraightRoutes(),
             lambda: MissionState(self.memory.facts, status=self.robot.status),
+        )
+        self.rehearsal_drives = RehearsalDrives(
+            self.rehearser, self.memory, RobotDescription(), module="tests.planner.small_rehearsal"
         )
         clock = MovedClocks()
         self.orders = standing_orders(HOME, clock, FakeMissions(clock, "two_room"))

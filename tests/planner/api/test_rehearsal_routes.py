@@ -12,6 +12,9 @@ from tests.planner.api.served import client_of
 from tests.planner.api.test_routes import FREE, code
 
 
+JSON = {"content-type": "application/json"}
+
+
 @pytest.fixture
 def services() -> FakeServices:
     return FakeServices(FREE)
@@ -54,3 +57,27 @@ def test_one_of_sentence_and_goal(client: TestClient, body: dict[str, str]) -> N
 def test_without_a_bridge_there_is_no_way_to_show() -> None:
     answer = client_of(FakeServices(None)).post("/v1/rehearsals", json={"text": "go home"})
     assert (answer.status_code, code(answer)) == (409, "rehearsal_without_pose")
+
+
+def test_a_plan_is_driven_in_the_simulator_on_demand_and_cancelled(
+    client: TestClient, services: FakeServices
+) -> None:
+    assert code(client.get("/v1/rehearsals/drive")) == "rehearsal_none"
+    assert code(client.delete("/v1/rehearsals/drive", headers=JSON)) == "rehearsal_none"
+    begun = client.post("/v1/rehearsals/drive", json={"text": "go to the living room"})
+    assert (begun.status_code, begun.json()["state"]) == (202, "running")
+    assert begun.json()["shown"]["steps"][0]["does"] == "drives"
+    again = client.post("/v1/rehearsals/drive", json={"text": "go home"})
+    assert (again.status_code, code(again)) == (409, "rehearsal_running")
+    assert again.json()["message"]["zh"]
+    assert client.get("/v1/rehearsals/drive").json()["id"] == begun.json()["id"]
+    ended = client.delete("/v1/rehearsals/drive", headers=JSON).json()
+    assert (ended["state"], ended["left_out"]) == ("cancelled", ["localization", "people_stand"])
+    assert (services.goals.calls, services.robot.asked) == ([], [])
+
+
+def test_a_drive_is_refused_as_a_rehearsal_is(client: TestClient) -> None:
+    assert code(client.post("/v1/rehearsals/drive", json={"text": "hello"})) == "rehearsal_no_plan"
+    assert client.post("/v1/rehearsals/drive", json={"goal": "g7"}).status_code == 404
+    lost = client_of(FakeServices(None)).post("/v1/rehearsals/drive", json={"text": "go home"})
+    assert code(lost) == "rehearsal_without_pose"

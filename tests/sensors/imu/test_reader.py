@@ -6,6 +6,7 @@ from typing import cast
 
 import pytest
 
+from lockstep.scene import folder_of
 from sensors.imu import reader as module
 from sensors.imu.bno085 import Bno085, reports_in
 from sensors.imu.bus import ImuTrouble, load_library
@@ -14,7 +15,6 @@ from sensors.imu.reader import CODES, FROZEN, ImuReader
 from sim.robot import SimRobot
 from sim.twin.imu_chips import Bno085Twin, Mpu6050Twin
 from tests.wire.examples import EXAMPLES
-from tools.lockstep.scene import folder_of
 from wire import DriveCommand, Imu
 from wire.imu_config import ImuConfig
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from bridge.core.geometry.fence import contains
+from lockstep.planner_process import Request
 from planner.plan import Code, GoalState
 from tests.tools.lockstep.test_points import point
 from tools.lockstep import GoalHandle, LockstepWorld
-from tools.lockstep.planner_process import Request
 from wire import Answer, Pose2, SlowMark
 
 IN_KITCHEN = Pose2(1.5, 1.2, 1.5)

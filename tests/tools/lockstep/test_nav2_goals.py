@@ -12,11 +12,11 @@ from typing import Any
 
 import pytest
 
+from lockstep.world import STAND_IN_ROBOT
 from planner.plan import Code, GoalState
 from ros2.pons_ros2.pons_ros2.goals import Nav2Dialogue, read_order
 from tests.ros2.small_nav2 import SmallNav2
 from tools.lockstep import GoalHandle, LockstepWorld
-from tools.lockstep.world import STAND_IN_ROBOT
 from wire import Mode, Nav2State, Pose2, Waypoints, decode, distance, encode, keys
 from wire.keys import Party
 from wire.ros2_config import Nav2Config, Ros2Config

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tools.lockstep.tick_loop import TickLoop
+from lockstep.tick_loop import TickLoop
 
 
 def made() -> TickLoop:

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from bridge.core.sensing.blind_sector import SEEN_S
 from bridge.drive.serial_drive import SERIAL_PROTOCOLS
+from lockstep.scene import folder_of, scene
+from lockstep.world import STAND_IN_ROBOT
 from planner.navigation import RouteFailure, RouteRequest
 from pons.settings import CHECKOUT
 from sim import Domain, Hardware
@@ -23,8 +25,6 @@ from sim.site import load_home, pose2
 from tools.bench.figures import none_in, poisson_upper_95
 from tools.bench.report import ReportRow
 from tools.lockstep import TICK_S, LockstepWorld, TooLong
-from tools.lockstep.scene import folder_of, scene
-from tools.lockstep.world import STAND_IN_ROBOT
 from wire import Mode, Pose2, RobotDescription, SimFault, load_robot
 from wire.robot import LocalizationConfig
 

@@ -12,18 +12,14 @@ from typing import TYPE_CHECKING, Any, Self, cast
 from bridge.core import CoreConfig, step
 from localization.node import StandInNode
 from localization.standin import StandIn
+from lockstep.bridge_process import BridgeProcess, Step
+from lockstep.bus import LockstepBus
+from lockstep.latencies import TICK_S, Pace, ticks
+from lockstep.planner_process import Notebook, PlannerProcess
+from lockstep.robot_process import RobotProcess
+from lockstep.scene import folder_of, scene
 from planner.brain import OfflineBrain
 from sim import Domain, Hardware, SimRobot
-from tools.lockstep.bridge_process import BridgeProcess, Step
-from tools.lockstep.bus import LockstepBus
-from tools.lockstep.drive_process import DriveProcess
-from tools.lockstep.latencies import TICK_S, Pace, ticks
-from tools.lockstep.lidar_process import LidarProcess
-from tools.lockstep.localizer_process import LocalizerProcess
-from tools.lockstep.mapping_process import MappingProcess
-from tools.lockstep.planner_process import Notebook, PlannerProcess
-from tools.lockstep.robot_process import RobotProcess
-from tools.lockstep.scene import folder_of, scene
 from wire import RobotDescription
 from wire.keys import Party
 from wire.robot import LocalizationConfig
@@ -32,18 +28,19 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
+    from lockstep.parts import LineBase, Turning, WorldEyes
+    from lockstep.scene import LockstepScene
     from planner.brain import Brain
     from planner.brain.image_questions import Looker
-    from sim.twin.twin import Boot
-    from tools.lockstep.eyes import PerceptionProcess
+    from sim.site import Home
     from wire import DriveCommand, Pose2, Status, Twist2
     from wire.session import Session
 
 START_S = 1_000.0
+"""Where every part's monotonic clock begins: not at zero, which would hide a missing time."""
 STAND_IN_ROBOT = RobotDescription(localization=LocalizationConfig(kind="stand_in"))
 """The default robot, told where it is: halls without a feature tell a localizer nothing, and most
 that is tried here is not about the pose."""
-"""Where every part's monotonic clock begins: not at zero, which would hide a missing time."""
 
 
 class TooLong(Exception):
@@ -56,16 +53,13 @@ class World:
     bridge_lives = True
     """False from its kill on: nothing is sent to the wheels any more."""
 
-    mapping: MappingProcess | None = None
-    """What makes the map, where one is made."""
-    localizer: LocalizerProcess | None = None
-    """What finds the robot by scans on a known map, where that is done."""
-
     def __init__(  # noqa: PLR0913  # a world's parts, all by name
         self,
         *,
         site: Path | str = "two_room",
         canvas: Path | None = None,
+        plain: LockstepScene | None = None,
+        home: Home | None = None,
         seed: int = 1,
         brain: Brain | None = None,
         robot: RobotDescription | None = None,
@@ -74,13 +68,14 @@ class World:
         start: Pose2 | None = None,
         pace: Pace | None = None,
         step: Step = step,
-        firmware: Boot | None = None,
     ) -> None:
         """Put the parts together.
 
         Args:
             site: a site's folder, or the name of one of the checkout's own.
             canvas: the folder in which a map of it is made by driving; None: the map is known.
+            plain: what the parts read of the site, where it is not what lies in its folder.
+            home: what stands there, likewise.
             seed: of all noise and of what varies on the wire.
             brain: what turns sentences into plans; the offline brain if None. It answers at once.
             robot: its description; the default robot if None. It says what localizes.
@@ -89,22 +84,18 @@ class World:
             start: where the robot stands at first; the site's dock if None.
             pace: how long messages, routes, plans and the disk take.
             step: the bridge's core, or a wrapper that measures it.
-            firmware: of a base of metal, in place of its kind's model.
         """
         self.pace, self.seed = pace or Pace(), seed
-        self.scene = scene(canvas or folder_of(site), robot or STAND_IN_ROBOT)
+        self.scene = plain or scene(canvas or folder_of(site), robot or STAND_IN_ROBOT)
         latency = {frozenset({Party.PLANNER, Party.BRIDGE}): self.pace.planner_bridge}
         self.bus = LockstepBus(seed, latency)
         self.sim = SimRobot(
             folder_of(site), self.scene.robot, seed=seed, start=start,
-            hardware=hardware, domain=domain,
+            hardware=hardware, domain=domain, home=home,
         )  # fmt: skip
-        self.base = self._base(firmware)
+        self.base = self._base()
         self._robot = RobotProcess(self.sim, self.bus.port(Party.ROBOT), self.base)
-        self.lidar: LidarProcess | None = None
-        """A lidar of metal's twin, where the robot's description names one."""
-        if self.scene.robot.lidar.has_line:
-            self.lidar = LidarProcess(self.sim, self.bus.port(Party.LIDAR), seed)
+        self.lidar = self._lidar()
         self._localization = self._localize(seed)
         self.bridge = self._bridge(step)
         self.notebook = Notebook()
@@ -114,7 +105,7 @@ class World:
         self._goals = 0
         self._frozen = False
         self._localizing = True
-        self.eyes: PerceptionProcess | None = None
+        self.eyes: WorldEyes | None = None
         self.looker: Looker | None = None
         self._hooked = 0
         self._hooks: list[tuple[int, int, Callable[[Any], None]]] = []
@@ -277,27 +268,22 @@ class World:
             f"leg {status.leg}, reasons {self.bridge.reasons}"
         )
 
-    def _base(self, firmware: Boot | None) -> DriveProcess | None:
-        """Return a base of metal's twin, where the robot's description names one."""
-        if self.scene.robot.drive.virtual:
-            return None
-        boot = self._config(self.seed).boot
-        return DriveProcess(self.sim, boot, self.seed, self._clock, firmware)
+    def _base(self) -> LineBase | None:
+        """Return a base that speaks on a line; None: commands come by the wire."""
+        return None
+
+    def _lidar(self) -> Turning | None:
+        """Return a lidar that speaks on a line; None: the simulator's own scans."""
+        return None
 
     def _bridge(self, step: Step) -> BridgeProcess:
         drive = self.base.drive if self.base else None
         port = self.bus.port(Party.BRIDGE)
         return BridgeProcess(self._config(self.seed), port, step, self.now_s, drive)
 
-    def _localize(self, seed: int) -> MappingProcess | LocalizerProcess | StandInNode:
-        """Return what says where the robot is."""
+    def _localize(self, seed: int) -> Turning:
+        """Return what says where the robot is: the truth and a little noise."""
         port = self.bus.port(Party.LOCALIZATION)
-        if self.scene.grows:
-            self.mapping = MappingProcess(self.scene, port)
-            return self.mapping
-        if self.scene.robot.localization.kind == "scans":
-            self.localizer = LocalizerProcess(self.scene, port)
-            return self.localizer
         stand_in = StandIn(self.scene.site.map_id, seed=seed)
         return StandInNode(stand_in, cast("Session", port))
 

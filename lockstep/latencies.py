@@ -17,6 +17,8 @@ class Pace:
     route: int = 2
     journal: int = 1
     localization_period: int = 5
+    planner_hears: int = 1
+    """Ticks between two of the planner's looks at what came."""
     planner_tick_period: int = 5
     """Ticks between two of the mission's looks at the clock."""
     repeat: int = 5

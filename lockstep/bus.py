@@ -12,7 +12,7 @@ from collections import deque
 from random import Random
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from tools.lockstep.disturbance import QUIET, Disturbance
+from lockstep.disturbance import QUIET, Disturbance
 from wire import DecodeFailure, Record, decode, encode
 from wire.session import Arrivals
 

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 from wire import keys
 
 if TYPE_CHECKING:
+    from lockstep.bus import Port
+    from lockstep.parts import LineBase
     from sim import Report, SimRobot
-    from tools.lockstep.bus import Port
-    from tools.lockstep.drive_process import DriveProcess
 
 
 class RobotProcess:
     """Connect a simulated robot to the bus."""
 
-    def __init__(self, robot: SimRobot, port: Port, base: DriveProcess | None = None) -> None:
+    def __init__(self, robot: SimRobot, port: Port, base: LineBase | None = None) -> None:
         """Take commands from the wire, or from a base on a line, which then has the answers."""
         self.robot = robot
         self._base = base

@@ -12,6 +12,9 @@ import asyncio
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
+from lockstep.latencies import TICK_S
+from lockstep.marked_router import note_places, routers_of
+from lockstep.tick_loop import TickLoop
 from planner.bridge_client import Link, LinkError, StopResult, WireBus
 from planner.language.sentence import parse
 from planner.mission import Clocks, Missions
@@ -20,9 +23,6 @@ from planner.mission.perception_requests import nothing_spent
 from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.mission.state import GoalKey
 from planner.navigation.frontier import FrontierMemory
-from tools.lockstep.latencies import TICK_S
-from tools.lockstep.marked_router import note_places, routers_of
-from tools.lockstep.tick_loop import TickLoop
 from wire import VIRTUAL_KEY, MarksFile, MarksRequest, OpKind, OpRequest, sign_marks, signed_request
 from wire.fence import fence_text
 
@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine
     from typing import Any
 
+    from lockstep.bus import Port
+    from lockstep.latencies import Pace
+    from lockstep.parts import WorldEyes
+    from lockstep.scene import LockstepScene
     from planner.brain import Brain, ThinkRequest, ThinkResult
     from planner.brain.image_questions import Looker
     from planner.brain.streamed_draft import Hear
@@ -41,10 +45,6 @@ if TYPE_CHECKING:
     from planner.navigation.router import Router
     from planner.plan import BrainTag, GoToPose, Language
     from sim import SimRobot
-    from tools.lockstep.bus import Port
-    from tools.lockstep.eyes import PerceptionProcess
-    from tools.lockstep.latencies import Pace
-    from tools.lockstep.scene import LockstepScene
     from wire import Answer, Status
     from wire.session import Session
 
@@ -174,7 +174,7 @@ class PlannerProcess:
         self.said: list[str] = []
         self._port, self._pace = port, pace
         self._count = 0
-        self._eyes: PerceptionProcess | None = None
+        self._eyes: WorldEyes | None = None
         self._tasks = TickLoop(now_s)  # type: ignore[abstract]  # what needs threads or sockets
         self._brain = PacedBrain(brain, pace.brain * TICK_S)
         self._link = Link(
@@ -225,14 +225,14 @@ class PlannerProcess:
         """Let this brain turn sentences into plans."""
         self._brain.brain = brain
 
-    def see_with(self, eyes: PerceptionProcess, looker: Looker | None = None) -> None:
+    def see_with(self, eyes: WorldEyes, looker: Looker | None = None) -> None:
         """Use these eyes from now on, and this model to ask about their pictures."""
         if self._eyes is not eyes:
             self._link.tell(eyes)
         self._eyes = eyes
         self._tasks.do(self._tasks.time(), lambda: self._see(eyes, looker))
 
-    def _see(self, eyes: PerceptionProcess, looker: Looker | None) -> None:
+    def _see(self, eyes: WorldEyes, looker: Looker | None) -> None:
         self.missions.see(eyes, looker)
         self.missions.loop.bound_search(PICTURES, nothing_spent)
 
@@ -243,7 +243,8 @@ class PlannerProcess:
     def turn(self, now_s: float) -> None:
         """Hear, judge, answer, and carry out what is due."""
         loop, tasks = self.missions.loop, self._tasks
-        tasks.do(now_s, loop.hear)
+        if self._port.bus.tick % self._pace.planner_hears == 0:
+            tasks.do(now_s, loop.hear)
         tasks.do(now_s, tasks.fire)
         if self._port.bus.tick % self._pace.planner_tick_period == 0:
             tasks.do(now_s, loop.tick)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from bridge.core.geometry.fence import FenceGrid
 from bridge.fence_file import load_fence
@@ -14,9 +14,11 @@ from planner.navigation.router import Router
 from planner.plan import Vocabulary
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
+from pons_assets import SITES
 from wire import RobotDescription
 
-SITES = Path(__file__).resolve().parents[2] / "sites"
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)

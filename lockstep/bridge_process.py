@@ -19,7 +19,7 @@ from bridge.marks_update import read_marks
 from wire import VIRTUAL_KEY, ConfigError, DriveCommand, Event, Status
 
 if TYPE_CHECKING:
-    from tools.lockstep.bus import Port
+    from lockstep.bus import Port
     from wire.session import Session
 
 Step = Callable[[CoreConfig, BridgeState, Inbox, float], Decision]

@@ -11,8 +11,8 @@ from planner.navigation.router import Router
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from lockstep.scene import LockstepScene
     from planner.site import KnownPlaces
-    from tools.lockstep.scene import LockstepScene
 
 
 class MarkedRouter:
