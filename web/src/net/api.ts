@@ -16,6 +16,7 @@ import type {
   Objects,
   Person,
   PersonRole,
+  Place,
   Pose,
   StandingOrders,
   Taught,
@@ -192,6 +193,15 @@ export async function teachPlace(
 ): Promise<Taught> {
   const body = { name, source: "page", ...(point ? { point } : {}), ...(room ? { room } : {}) };
   return (await call("POST", "v1/places", body)) as Taught;
+}
+
+/** Teach a place somewhere else, under the id and names that it has. */
+export async function movePlace(
+  { id, name }: Pick<Place, "id" | "name">,
+  point: Pose,
+): Promise<void> {
+  const names = { en: name.en, zh: name.zh };
+  await call("PUT", `v1/places/${encodeURIComponent(id)}`, { name: names, point, source: "page" });
 }
 
 /** Tell localization where the robot is: at a point of the map, or in a place. */
