@@ -62,9 +62,9 @@ def call(
     return _judge(*_exchange(settings, method, path, body, timeout_s, headers, content))
 
 
-def fetch_text(settings: LaunchSettings, path: str) -> str:
+def fetch_text(settings: LaunchSettings, path: str, timeout_s: float = DEFAULT_TIMEOUT_S) -> str:
     """Return an answer that is a text and no JSON. Raises as ``call``."""
-    status, raw = _exchange(settings, "GET", path)
+    status, raw = _exchange(settings, "GET", path, timeout_s=timeout_s)
     return raw.decode() if status == http.HTTPStatus.OK else str(_judge(status, raw))
 
 

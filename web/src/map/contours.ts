@@ -6,8 +6,8 @@ import { Cells, OCCUPIED } from "./cells";
 import type { Corner, Outline } from "./outline";
 import type { Grid } from "../wire/types";
 
-/** A step of the cells is as far from the straight line; more is a shape. */
-export const TOLERANCE_CELLS = 0.55;
+/** Below half a cell, else a wall loses one of the two points at its corner and slants. */
+export const TOLERANCE_CELLS = 0.45;
 
 const known = new WeakMap<Grid, string>();
 /** How often outlines were worked out: a frame must not. */

@@ -47,6 +47,7 @@ export class MapView {
   private unplaced = true;
   private settling: ReturnType<typeof setTimeout> | undefined;
   private places: readonly Place[] = [];
+  private nameOf: (place: Place) => string = (place) => place.id;
   private spots = new Map<string, Point>();
   private robot: Point | null = null;
   private radius = 0.3;
@@ -79,21 +80,28 @@ export class MapView {
     this.drawn = null; // its layers may cover other metres
     this.paint();
     this.spotNames();
+    this.writeNames();
     if (before === JSON.stringify(this.known)) this.draw();
     else this.fit(); // a map that grew inside keeps a person's zoom
   }
 
   showNames(places: readonly Place[], nameOf: (place: Place) => string): void {
-    if (this.places !== places) {
-      this.places = places;
+    const others = this.places !== places;
+    this.places = places;
+    this.nameOf = nameOf;
+    if (others) {
       this.paint();
       this.spotNames();
     }
+    this.writeNames();
+  }
+
+  private writeNames(): void {
     for (const kind of ["room", "place"] as const) {
-      const those = places.filter((place) => place.kind === kind);
+      const those = this.places.filter((place) => place.kind === kind);
       const plate = (place: Place): Nameplate => {
         const at = this.spots.get(place.id) ?? pointOf(place.pose);
-        return { id: place.id, text: nameOf(place), at };
+        return { id: place.id, text: this.nameOf(place), at };
       };
       this.write(kind, those.map(plate));
     }
