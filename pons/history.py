@@ -12,12 +12,13 @@ from datetime import datetime, timedelta
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote, urlencode
 
-from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
+from pons.http import PlannerDown, PlannerProblem, call, fetch_text, tell_unreached
 from pons.terminal import paint, pick, pick_of, refusal
 from pons.terminal_text import step_line
 
 if TYPE_CHECKING:
     import argparse
+    from pathlib import Path
 
     from pons.settings import LaunchSettings
 
@@ -25,6 +26,8 @@ EXIT_DONE, EXIT_NOTHING, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 1, 2, 3, 6
 PATH = "/v1/history"
 PAGE = 200
 """The most that the planner tells at once."""
+PAGE_S = 25.0
+"""The planner has the black box read for it by a process."""
 POLL_S = 0.5
 _COLOURS = {"succeeded": "green", "failed": "red", "refused": "red", "running": "blue"}
 
@@ -90,12 +93,24 @@ def _line(goal: dict[str, Any], given: datetime) -> str:
 
 
 def _show_one(settings: LaunchSettings, said: argparse.Namespace) -> int:
-    told = call(settings, "GET", f"{PATH}/{quote(said.goal, safe='')}")
+    path = f"{PATH}/{quote(said.goal, safe='')}"
     if said.html is not None:
-        from pons.mission_page import write_page
-
-        return write_page(settings, told, said.html)
+        return _write_page(settings, path, said.html)
+    told = call(settings, "GET", path)
     print(json.dumps(told, ensure_ascii=False, indent=1) if said.json else "\n".join(_lines(told)))
+    return EXIT_DONE
+
+
+def _write_page(settings: LaunchSettings, path: str, file: Path) -> int:
+    """Write a goal as one HTML file; 0 done, 2 the file can't be written."""
+    language = pick("en", "zh")
+    page = fetch_text(settings, f"{path}/page?language={language}", timeout_s=PAGE_S)
+    try:
+        file.write_text(page, "utf-8")
+    except OSError as error:
+        print(f"file_unwritable: {file}: {error.strerror}", file=sys.stderr)
+        return EXIT_USAGE
+    print(pick(f"wrote {file}", f"已写入 {file}"))
     return EXIT_DONE
 
 

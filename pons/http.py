@@ -62,15 +62,15 @@ def call(
     return _judge(*_exchange(settings, method, path, body, timeout_s, headers, content))
 
 
-def fetch(settings: LaunchSettings, path: str) -> bytes:
+def fetch(settings: LaunchSettings, path: str, timeout_s: float = DEFAULT_TIMEOUT_S) -> bytes:
     """Return an answer that is not JSON. Raises as ``call``."""
-    status, raw = _exchange(settings, "GET", path)
+    status, raw = _exchange(settings, "GET", path, timeout_s=timeout_s)
     return raw if status == http.HTTPStatus.OK else bytes(_judge(status, raw))
 
 
-def fetch_text(settings: LaunchSettings, path: str) -> str:
+def fetch_text(settings: LaunchSettings, path: str, timeout_s: float = DEFAULT_TIMEOUT_S) -> str:
     """Return an answer that is a text and no JSON. Raises as ``call``."""
-    return fetch(settings, path).decode()
+    return fetch(settings, path, timeout_s).decode()
 
 
 def _exchange(

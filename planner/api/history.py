@@ -5,20 +5,24 @@ Whoever may see the goals may see them here; the model's own words stay with /v1
 
 from __future__ import annotations
 
+import re
 from typing import Annotated
 
 from fastapi import APIRouter, Query
+from starlette.responses import HTMLResponse
 
 from planner.api.goals import Cursor, find_goal
 from planner.api.interfaces import Services
 from planner.budget import Usage
 from planner.mission.goal_history import GoalStory, HistoryPage, HistoryQuery
 from planner.mission.recorded_track import RecordedTrack
-from planner.plan import Frozen, Goal, GoalState
+from planner.mission.shared_mission import page_of
+from planner.plan import Frozen, Goal, GoalState, Language
 
 Limit = Annotated[int, Query(ge=1, le=200)]
 UnixTime = Annotated[float | None, Query(ge=0.0, le=1e11)]
 Words = Annotated[str | None, Query(max_length=200)]
+_NO_FILE_NAME = re.compile(r"[^A-Za-z0-9_.-]")
 
 
 class ToldGoal(Frozen):
@@ -53,10 +57,7 @@ def routes(services: Services) -> APIRouter:
     @router.get("/{goal_id}", operation_id="get_history")
     async def one(goal_id: str) -> ToldGoal:
         """Show one goal with who gave it, what was asked and answered, and what it cost."""
-        _, story = await services.history.story(goal_id)
-        goal = await find_goal(services, goal_id)
-        await services.budget.look(goal_id)
-        return ToldGoal(goal=goal, story=story, usage=services.budget.usage(goal_id))
+        return await _tell(services, goal_id)
 
     @router.get("/{goal_id}/track", operation_id="get_history_track")
     async def track(goal_id: str) -> RecordedTrack:
@@ -64,8 +65,39 @@ def routes(services: Services) -> APIRouter:
 
         Empty where nothing of that time is kept any more.
         """
-        mission, story = await services.history.story(goal_id)
-        began = story.changes[0].at_unix_s if story.changes else mission.created_unix_s
-        return await services.history.tracks.read(began, mission.updated_unix_s)
+        return await _track(services, goal_id)
+
+    @router.get(
+        "/{goal_id}/page",
+        operation_id="get_history_page",
+        response_class=HTMLResponse,
+        responses={200: {"content": {"text/html": {}}}},
+    )
+    async def page(goal_id: str, language: Language = Language.EN) -> HTMLResponse:
+        """Return the mission as one HTML file to share: it asks no network, and is to be saved.
+
+        As a page of the planner's own it runs nothing: the policy of all answers forbids it.
+        """
+        told = (await _tell(services, goal_id)).model_dump(mode="json")
+        track = (await _track(services, goal_id)).model_dump(mode="json")
+        name = f"pons-{_NO_FILE_NAME.sub('_', goal_id)}.html"
+        saved = {"content-disposition": f'attachment; filename="{name}"'}
+        return HTMLResponse(page_of(told, track, language), headers=saved)
 
     return router
+
+
+async def _tell(services: Services, goal_id: str) -> ToldGoal:
+    mission, story = await services.history.story(goal_id)
+    try:
+        goal = services.goals.goal(goal_id)  # with its progress, and its place in the queue
+    except UnknownGoal:
+        goal = recorded_goal(mission)
+    await services.budget.look(goal_id)
+    return ToldGoal(goal=goal, story=story, usage=services.budget.usage(goal_id))
+
+
+async def _track(services: Services, goal_id: str) -> RecordedTrack:
+    mission, story = await services.history.story(goal_id)
+    began = story.changes[0].at_unix_s if story.changes else mission.created_unix_s
+    return await services.history.tracks.read(began, mission.updated_unix_s)

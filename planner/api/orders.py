@@ -22,9 +22,9 @@ from planner.api.schemas import Body, Source, law_broken
 from planner.language.sentence import language_of
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, order_of_text, tell_question
-from planner.orders.order import MAX_ORDERS, Firing, StandingOrder
+from planner.orders.order import MAX_ORDERS, Firing, FiringState, StandingOrder
 from planner.orders.rule import coming_runs
-from planner.orders.telling import say_goal_of_reminder, tell_deed, tell_when
+from planner.orders.telling import say_goal_of_reminder, tell_deed, tell_missed, tell_when
 from planner.orders.zone import name_of
 from planner.plan import Language
 from planner.plan.timing import (
@@ -131,6 +131,19 @@ def _looking(router: APIRouter, orders: StandingOrders) -> None:
     async def several() -> dict[str, Any]:
         """List the standing orders with their next run, the time zone and the quiet hours."""
         return orders_view(orders)
+
+    @router.get("/firings", operation_id="list_firings")
+    async def firings(
+        limit: Annotated[int, Query(ge=1, le=HISTORY)] = 20,
+    ) -> dict[str, Any]:
+        """List the newest runs of all orders: what came of each, or why it did not run."""
+        try:
+            newest = await orders.keeper.newest(limit)
+        except StateUnavailable as error:
+            raise problem(OrderRefusal("orders_unwritable", str(error))) from None
+        kept = orders.keeper.book.orders
+        told = [_view_run(orders, kept[each.order], each) for each in newest if each.order in kept]
+        return {"firings": told}
 
     @router.get("/{order_id}", operation_id="get_order")
     async def one(
@@ -283,6 +296,14 @@ def firing_view(orders: StandingOrders, firing: Firing) -> dict[str, Any]:
         "at": _time(orders, firing.at_unix_s),
         "until": _time(orders, until_s) if until_s is not None else None,
     }
+
+
+def _view_run(orders: StandingOrders, order: StandingOrder, firing: Firing) -> dict[str, Any]:
+    """Return a firing with its order's words, and in words why it did not run."""
+    if firing.told is None and firing.state is FiringState.MISSED:
+        zone, now_s = orders.keeper.book.zone, orders.keeper.clocks.unix()
+        firing = firing.model_copy(update={"told": tell_missed(order, firing, zone, now_s)})
+    return {**firing_view(orders, firing), "text": order.text}
 
 
 def _runs(orders: StandingOrders, order: StandingOrder) -> list[str]:

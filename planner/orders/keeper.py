@@ -338,6 +338,10 @@ class OrderKeeper:
         """Return an order's newest firings. Raises StateUnavailable."""
         return await asyncio.to_thread(self._store.history, order_id, most)
 
+    async def newest(self, most: int) -> tuple[Firing, ...]:
+        """Return the newest firings of all orders. Raises StateUnavailable."""
+        return await asyncio.to_thread(self._store.newest, most)
+
     # Telling ------------------------------------------------------------------------------------
 
     def publish_change(self) -> None:

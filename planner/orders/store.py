@@ -130,12 +130,20 @@ class OrderStore:
         Raises:
             StateUnavailable: it can't be read.
         """
+        return self._firings("WHERE standing_order = ? ORDER BY serial DESC", order_id, most)
+
+    def newest(self, most: int) -> tuple[Firing, ...]:
+        """Return the newest firings of all orders, newest first.
+
+        Raises:
+            StateUnavailable: it can't be read.
+        """
+        return self._firings("ORDER BY json_extract(record, '$.at_unix_s') DESC", most)
+
+    def _firings(self, clauses: str, *values: str | int) -> tuple[Firing, ...]:
         if not self._database.read("SELECT 1 FROM sqlite_master WHERE name = 'firings'"):
             return ()
-        rows = self._database.read(
-            "SELECT record FROM firings WHERE standing_order = ? ORDER BY serial DESC LIMIT ?",
-            (order_id, most),
-        )
+        rows = self._database.read(f"SELECT record FROM firings {clauses} LIMIT ?", values)
         return tuple(Firing.model_validate_json(record) for (record,) in rows)
 
 

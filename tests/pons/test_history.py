@@ -12,10 +12,10 @@ import pytest
 from planner.mission.effects import Journal
 from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import MissionJournal
-from planner.plan import GoalState
+from planner.mission.shared_mission import page_of
+from planner.plan import GoalState, Language
 from pons import history
 from pons.grammar import parser
-from pons.mission_page import page_of
 from pons.mission_track import read_track
 from pons.settings import LaunchSettings, load
 from tests.bridge.core.scripted import World
@@ -106,7 +106,9 @@ def test_a_shared_page_holds_all_asks_no_network_and_runs_no_words(
 ) -> None:
     assert ask(settings, "goals", "g1", "--html", str(tmp_path / "m.html")) == 0
     assert "the red one" in (tmp_path / "m.html").read_text("utf-8")
-    page = page_of(TOLD, {"samples": [], "events": [], "gaps": [], "way_m": 0.0})
+    assert ask(settings, "goals", "g9", "--html", str(tmp_path / "m.html")) == 3
+    assert ask(settings, "goals", "g1", "--html", str(tmp_path)) == 2
+    page = page_of(TOLD, {"samples": [], "events": [], "gaps": [], "way_m": 0.0}, Language.ZH)
     assert "</script><b>" not in page
     assert "http:" not in page
     assert "https:" not in page

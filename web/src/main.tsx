@@ -1,11 +1,11 @@
 /** Start the page: Stop first, then the socket, then what is seen. */
-import "leaflet/dist/leaflet.css";
 import "uplot/dist/uPlot.min.css";
 import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/panels.css";
 import "./styles/places.css";
 import "./styles/map.css";
+import "./styles/nameplates.css";
 import "./styles/points.css";
 import "./styles/eyes.css";
 import "./styles/people.css";

@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { arrowheads, discs, dots, squares } from "../src/map/drawing";
 import { Cells, nameSpot } from "../src/map/cells";
-import { crowded } from "../src/map/labels";
 import { pixels, rgb, tinted } from "../src/map/raster";
 import { contains, middle, resolve, thingAt, unwound } from "../src/map/resolve";
 import type { Grid, Place } from "../src/wire/types";
@@ -92,12 +91,12 @@ describe("the picture", () => {
   } as Grid;
 
   it("has its first row at the top, unknown see-through", () => {
-    const data = pixels(new Cells(grid), () => [1, 2, 3], [4, 5, 6]);
-    expect([...(data ?? [])]).toEqual([0, 0, 0, 0, 1, 2, 3, 255, 1, 2, 3, 255, 4, 5, 6, 255]);
+    const data = pixels(new Cells(grid), () => [1, 2, 3]);
+    expect([...(data ?? [])]).toEqual([0, 0, 0, 0, 1, 2, 3, 255, 1, 2, 3, 255, 1, 2, 3, 255]);
   });
 
   it("is none where cells are missing", () => {
-    expect(pixels(new Cells({ ...grid, height: 3 }), () => [0, 0, 0], [0, 0, 0])).toBeNull();
+    expect(pixels(new Cells({ ...grid, height: 3 }), () => [0, 0, 0])).toBeNull();
   });
 
   it("lays each room's tint over its floor alone", () => {
@@ -169,23 +168,5 @@ describe("where it might be", () => {
   it("is drawn once for each candidate, and not at all without", () => {
     expect(arrowheads([guess(0), guess(1), guess(2)]).match(/Z/g)).toHaveLength(3);
     expect(arrowheads([])).toBe("");
-  });
-});
-
-describe("labels", () => {
-  const at = (left: number, top: number) => ({ left, top, right: left + 40, bottom: top + 12 });
-
-  it("are hidden where they lie on an earlier one or on a name, and only then", () => {
-    expect(crowded([at(0, 0), at(10, 5), at(0, 12), at(100, 0)], [])).toEqual([
-      false,
-      true,
-      false,
-      false,
-    ]);
-    expect(crowded([at(0, 0)], [at(39, 11)])).toEqual([true]);
-  });
-
-  it("leave room again to those whose rival is hidden", () => {
-    expect(crowded([at(0, 0), at(30, 0), at(60, 0)], [])).toEqual([false, true, false]);
   });
 });

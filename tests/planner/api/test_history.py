@@ -51,6 +51,18 @@ def test_a_track_is_read_by_a_process_and_empty_where_nothing_is_kept(client: Te
     assert client.get("/v1/history/g9/track").status_code == 404
 
 
+def test_a_mission_is_given_as_a_file_that_runs_nothing_here(client: TestClient) -> None:
+    page = client.get("/v1/history/g1/page", params={"language": "zh"})
+    assert page.status_code == 200
+    assert page.headers["content-disposition"] == 'attachment; filename="pons-g1.html"'
+    assert "script-src 'self'" in page.headers["content-security-policy"]
+    assert page.headers["cache-control"] == "no-store"
+    assert "the red one" in page.text
+    assert '"labels": "zh"' in page.text
+    assert client.get("/v1/history/g9/page").status_code == 404
+    assert client.get("/v1/history/g1/page", params={"language": "fr"}).status_code == 422
+
+
 @pytest.mark.parametrize(
     "wrong", ["limit=0", "limit=1000", "state=odd", "before=-1", "since_unix_s=x"]
 )

@@ -70,6 +70,12 @@ def test_an_order_is_given_listed_shown_paused_and_removed(client: TestClient) -
     assert client.get("/v1/orders").json()["orders"] == []
 
 
+def test_runs_of_all_orders_are_listed_and_bounded(client: TestClient) -> None:
+    give(client, text="every evening at eight go to the kitchen")
+    assert client.get("/v1/orders/firings").json() == {"firings": []}
+    assert client.get("/v1/orders/firings?limit=0").status_code == 422
+
+
 def test_a_day_is_left_out_until_the_order_is_resumed(client: TestClient) -> None:
     give(client, text="every evening at eight go to the kitchen")
     skipped = client.post("/v1/orders/o1/skip", json={"day": "2027-01-15"}).json()

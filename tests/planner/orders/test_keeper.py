@@ -47,6 +47,22 @@ def test_an_order_fires_at_its_time_and_once(tmp_path: Path) -> None:
     run(story())
 
 
+def test_the_newest_runs_of_all_orders_are_told_together(tmp_path: Path) -> None:
+    async def story() -> None:
+        kept = await kept_in(tmp_path)
+        assert await kept.orders.keeper.newest(10) == ()
+        first = await give(kept, "every day at 12:10 go to the kitchen")
+        second = await give(kept, "every day at 12:20 go to the kitchen")
+        await kept.run_s(601.0)
+        kept.missions.end("goal-1")
+        await kept.run_s(601.0)
+        newest = await kept.orders.keeper.newest(10)
+        assert [firing.order for firing in newest] == [second.id, first.id]
+        assert [firing.order for firing in await kept.orders.keeper.newest(1)] == [second.id]
+
+    run(story())
+
+
 def test_a_reminder_is_said_and_told(tmp_path: Path) -> None:
     async def story() -> None:
         kept = await kept_in(tmp_path)

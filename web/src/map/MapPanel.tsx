@@ -4,24 +4,29 @@ import { useEffect, useRef } from "preact/hooks";
 import { things } from "../eyes/sight";
 import { orderTo } from "../eyes/words";
 import { say, t } from "../i18n";
-import { fixed, seconds } from "../panels/format";
+import { fixed, seconds, when } from "../panels/format";
 import { toTeaching } from "../panels/Tabs";
 import { followGhost } from "../rehearse/ghost";
 import { give, tell } from "../state/acts";
+import { startArrivals, toGo } from "../state/arrival";
 import { fresh } from "../state/moment";
 import { picked, picking, pointAsked } from "../state/picking";
 import {
   addCorner,
   addToRow,
+  closeAll,
   crosshair,
   drawn,
+  dropPlace,
   facing,
   goTo,
+  gripCorner,
+  gripPlace,
   marksShown,
   menu,
+  moving,
   row,
   startPointing,
-  toGo,
   trail,
 } from "../state/pointing";
 import { steady } from "../state/steady";
@@ -32,6 +37,7 @@ import {
   grid,
   isBusy,
   layers,
+  now,
   pageFresh,
   pageHeard,
   path,
@@ -44,29 +50,44 @@ import {
   status,
 } from "../state/store";
 import { visible } from "../state/visible";
+import type { Pose } from "../wire/types";
+import type { Camera } from "./camera";
 import { Cells } from "./cells";
 import { isShown, LAYERS, toggleLayer } from "./layers";
+import { MapButtons, STEP_RAD, STEP_ZOOM } from "./MapButtons";
 import { MarkList, MapTools } from "./MapTools";
 import { headingTo, stepped } from "./outline";
 import { PointMenu, type Target } from "./PointMenu";
-import { type Point, resolve, thingAt } from "./resolve";
+import { type Point, placeAt, resolve, thingAt } from "./resolve";
 import { samePose, sameScan } from "./unmoved";
 import { MapView } from "./view";
 
-const spot = signal({ left: 0, top: 0 });
 const follows = signal(false);
+/** How the map is seen; changes in the frame that shows it so. */
+const camera = signal<Camera | null>(null);
+const spot = computed(() => {
+  const [point, view] = [menu.value, shownView.value];
+  return point && camera.value && view ? view.pixel(point) : null;
+});
 
 export function MapPanel() {
   const place = useRef<HTMLDivElement>(null);
   useEffect(() => {
     if (place.current === null) return;
-    const view: MapView = new MapView(
-      place.current,
-      (point) => clicked(point, view),
-      (point) => (hovered.value = point),
-    );
+    const view = new MapView(place.current, {
+      tap: clicked,
+      hover: (point) => (hovered.value = point),
+      aims: () => facing.value !== null,
+      grab: gripCorner,
+      hold: (point, withinM) => {
+        const target = drawn.value ? null : placeAt(places.value, point, withinM);
+        return target && gripPlace(target);
+      },
+      looked: (next) => (camera.value = next),
+    });
     shownView.value = view;
-    const ends = [startPointing(), ...follow(view), () => view.close()];
+    const ends = [startPointing(), startArrivals(), closingByEscape(), ...follow(view)];
+    ends.push(() => view.close());
     return () => {
       for (const end of ends) end();
     };
@@ -81,7 +102,6 @@ export function MapPanel() {
         aria-label={t("point.keys")}
         tabIndex={0}
         onKeyDown={pressed}
-        onPointerUp={turnedTo}
       />
       <div class="map-notes">
         <Ages />
@@ -89,13 +109,15 @@ export function MapPanel() {
         <WhyItBends />
         <ToGo />
       </div>
+      {shownView.value && <MapButtons view={shownView.value} turn={camera.value?.turn ?? 0} />}
       <LayerSwitches />
       <Growing />
       <MapTools />
-      {menu.value && (
+      {menu.value && spot.value && (
         <PointMenu
           point={menu.value}
-          target={targetAt(menu.value)}
+          targets={targetsAt(menu.value)}
+          place={placeAt(places.value, menu.value, MOVED_M)}
           at={spot.value}
           onGo={(order, replace) => void go(order, replace)}
         />
@@ -130,9 +152,8 @@ function follow(view: MapView): (() => void)[] {
       view.showNames(places.value, (shown) => say(shown.name)); // and again in another language
     }),
     effect(() => view.showThings(things.value, (shown) => say(shown.name))),
-    effect(() => view.showZoom(t("map.zoom_in"), t("map.zoom_out"))),
     effect(() => {
-      if (about.value) drawing.showBody(about.value.base.radius_m);
+      if (about.value) view.showBody(about.value.base.radius_m);
     }),
     effect(() => drawing.showPicked(picked.value)),
     effect(() => view.showPicking(picking.value || pointAsked.value !== null)),
@@ -144,11 +165,19 @@ function follow(view: MapView): (() => void)[] {
     effect(() => seen(() => drawing.showLayers(layersNow.value))),
     effect(() => view.showRooms(isShown("rooms") ? nameless.value : [])),
     effect(() => drawing.greyScan(!scanFresh.value)),
-    effect(() => seen(() => drawing.showRobot(poseNow.value))),
+    effect(() => drawing.showFence(isShown("fence"))),
+    effect(() => seen(() => view.showRobot(poseNow.value))),
     effect(() => drawing.doubtRobot(poseDoubtful.value)),
     effect(() => drawing.points.showMarks(marksShown.value)),
     effect(() => drawing.points.showDrawn(drawn.value)),
-    effect(() => drawing.points.showRow(row.value)),
+    effect(() => {
+      drawing.points.showRow(row.value);
+      view.showRow(row.value);
+    }),
+    effect(() => {
+      const move = moving.value;
+      drawing.points.showMove(move && pointOf(move.place), move?.to ?? null);
+    }),
     effect(() => seen(() => drawing.points.showTrail(isShown("trail") ? trail.value : []))),
     effect(() => {
       const from = facing.value;
@@ -158,7 +187,6 @@ function follow(view: MapView): (() => void)[] {
         from && to ? headingTo(from, to) : null,
       );
     }),
-    effect(() => view.holdStill(facing.value !== null)),
     effect(() => {
       const pose = poseNow.value;
       if (follows.value && pose) view.reveal({ x: pose.x_m, y: pose.y_m });
@@ -192,33 +220,63 @@ function poseAge(): number | null {
   return bridge === null || localization === null ? null : Math.max(bridge, localization);
 }
 
+const MOVED_M = 0.45; // a click so near to a place may move it
+const LISTED_PX = 40;
+const MOST_LISTED = 6;
 const hovered = signal<Point | null>(null);
 const shownView = signal<MapView | null>(null);
+
+/** Close what is open on the map by Esc; it stops the robot as well, always and first (stop/keys.ts). */
+function closingByEscape(): () => void {
+  const close = (event: KeyboardEvent): void => {
+    if (event.key !== "Escape") return;
+    const had = document.activeElement?.closest(".point-menu") !== null;
+    closeAll();
+    if (had) document.getElementById("map")?.focus({ preventScroll: true });
+  };
+  addEventListener("keydown", close);
+  return () => removeEventListener("keydown", close);
+}
+
+/** Turn and zoom by keys of their own, as the buttons do. */
+function seenOtherwise(view: MapView, key: string): boolean {
+  const acts: Readonly<Record<string, () => void>> = {
+    "[": () => view.turn(-STEP_RAD),
+    "]": () => view.turn(STEP_RAD),
+    n: () => view.turn(null),
+    "+": () => view.zoom(STEP_ZOOM),
+    "=": () => view.zoom(STEP_ZOOM),
+    "-": () => view.zoom(1 / STEP_ZOOM),
+    "0": () => view.fit(),
+  };
+  acts[key]?.();
+  return key in acts;
+}
 
 /** Move the crosshair by the arrow keys; Enter does there what a click would. */
 function pressed(event: KeyboardEvent): void {
   const view = shownView.value;
   if (!view || event.target !== event.currentTarget) return;
-  const pose = poseNow.value;
-  const from = crosshair.value ?? (pose ? { x: pose.x_m, y: pose.y_m } : view.centre());
-  if (event.key === "Enter") {
+  if (event.ctrlKey || event.metaKey || event.altKey) return; // the browser's own
+  if (seenOtherwise(view, event.key)) {
     event.preventDefault();
-    if (facing.value && crosshair.value) faceTo(crosshair.value);
-    else clicked(from, view);
     return;
   }
-  const to = stepped(from, event.key, event.shiftKey);
+  const pose = poseNow.value;
+  const from = crosshair.value ?? (pose ? pointOf({ pose }) : view.centre());
+  if (event.key === "Enter") {
+    event.preventDefault();
+    clicked(from);
+    return;
+  }
+  const to = stepped(from, event.key, event.shiftKey, camera.value?.turn ?? 0);
   if (!to) return;
   event.preventDefault();
   crosshair.value = hovered.value = to;
   view.reveal(to);
 }
 
-/** Take the heading where the mouse or finger lets go. */
-function turnedTo(event: PointerEvent): void {
-  const view = shownView.value;
-  if (facing.value && view) faceTo(view.pointAt(event));
-}
+const pointOf = ({ pose }: { readonly pose: Pose }): Point => ({ x: pose.x_m, y: pose.y_m });
 
 function faceTo(point: Point): void {
   const from = facing.value;
@@ -229,9 +287,17 @@ function faceTo(point: Point): void {
   else void goTo([goal], isBusy.value);
 }
 
-function clicked(point: Point, view: MapView): void {
+function clicked(point: Point): void {
   menu.value = null;
-  if (facing.value) return; // where the pointer let go counts
+  if (facing.value) {
+    faceTo(point); // where the pointer let go counts
+    return;
+  }
+  if (moving.value) {
+    moving.value = { ...moving.value, to: point };
+    void dropPlace();
+    return;
+  }
   if (drawn.value) {
     addCorner(point);
     return;
@@ -247,17 +313,25 @@ function clicked(point: Point, view: MapView): void {
     picking.value = false;
     return;
   }
-  spot.value = view.pixel(point);
   menu.value = point;
 }
 
-function targetAt(point: Point): Target | null {
-  const thing = thingAt(things.value, point);
-  if (thing !== null) return { name: say(thing.name), order: orderTo(thing) };
-  const place = resolve(places.value, point);
-  if (place === null) return null;
-  const name = say(place.name);
-  return { name, order: t("goal.to", { name }) };
+/** Return what is meant by a point, and beside it what had no room for its name there. */
+function targetsAt(point: Point): readonly Target[] {
+  const near = (at: Point): boolean =>
+    Math.hypot(at.x - point.x, at.y - point.y) <= LISTED_PX / (camera.value?.scale ?? 1);
+  const hidden = (id: string): boolean => shownView.value?.isLeftOut(id) ?? false;
+  const meant = [thingAt(things.value, point), resolve(places.value, point)];
+  const first = meant.find((one) => one !== null) ?? null;
+  const unnamed = [
+    ...places.value.filter((place) => near(pointOf(place)) && hidden(place.id)),
+    ...things.value.filter((one) => near({ x: one.x_m, y: one.y_m }) && hidden(one.id)),
+  ];
+  const all = [...(first ? [first] : []), ...unnamed.filter((one) => one.id !== first?.id)];
+  return all.slice(0, MOST_LISTED).map((one): Target => {
+    const name = say(one.name);
+    return { id: one.id, name, order: "pose" in one ? t("goal.to", { name }) : orderTo(one) };
+  });
 }
 
 async function go(text: string, replace: boolean): Promise<void> {
@@ -282,15 +356,15 @@ function LayerSwitches() {
           {t(`map.layer_${name}`)}
         </label>
       ))}
-      {(["fence", "out", "slow"] as const).map((name) => (
+      {(["out", "slow"] as const).map((name) => (
         <span key={name} class="legend">
           <span class={`layer-swatch swatch-of-${name}`} aria-hidden="true" />
           {t(`legend.${name}`)}
         </span>
       ))}
       <MarkList />
-      <span class="map-buttons">
-        <button type="button" onClick={() => shownView.value?.showAll()}>
+      <span class="map-seen">
+        <button type="button" onClick={() => shownView.value?.fit()}>
           {t("map.fit")}
         </button>
         <button
@@ -323,19 +397,27 @@ function aged(
   return ageS === null ? t(never) : t(old, { age: seconds(ageS) });
 }
 
-/** Say how far it is still, and how long that takes at the speed of late. */
+/** Say how far it is still, how long that takes, and when it will be there. */
 function ToGo() {
   const left = pageFresh.value ? toGo.value : null;
   if (left === null) return null;
-  const far = t("step.to_go", { left: fixed(left.left, 1, "m") });
-  const long = left.seconds === null ? "" : ` · ${t("map.about", { time: seconds(left.seconds) })}`;
+  const wallMs = now.value.wallMs;
+  const facts = [
+    t("step.to_go", { left: fixed(left.left, 1, "m") }),
+    left.stepsAfter > 0 ? t("map.stops_after", { n: String(left.stepsAfter) }) : "",
+    left.seconds === null ? "" : t("map.about", { time: seconds(left.seconds) }),
+    left.seconds === null || left.seconds < AT_S
+      ? ""
+      : t("map.there_at", { time: when(wallMs + 1000 * left.seconds, wallMs) }),
+  ];
   return (
     <p class="map-ages" id="to-go">
-      {far}
-      {long}
+      {facts.filter(Boolean).join(" · ")}
     </p>
   );
 }
+
+const AT_S = 60; // sooner, nobody looks at a clock
 
 /** Say why the way bends, or goes on towards something; the spot is marked on the map. */
 function WhyItBends() {

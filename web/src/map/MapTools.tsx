@@ -1,7 +1,9 @@
 /** Show what is being given on the map: a heading, a row of points, an outline; and list the marks. */
-import { t } from "../i18n";
+import { say, t } from "../i18n";
 import {
   addCorner,
+  bringCorner,
+  changeMark,
   crosshair,
   deleteMark,
   drawn,
@@ -9,6 +11,7 @@ import {
   goTo,
   marking,
   marksShown,
+  moving,
   row,
   saveOutline,
   saving,
@@ -22,6 +25,7 @@ const SPEEDS = [0.1, 0.15, 0.2, 0.3];
 
 export function MapTools() {
   if (facing.value) return <Facing />;
+  if (moving.value) return <Moving name={say(moving.value.place.name)} />;
   if (drawn.value) return <Drawing />;
   return row.value.length > 0 ? <Row /> : null;
 }
@@ -31,6 +35,17 @@ function Facing() {
     <div class="map-tools" role="status">
       <span>{t("point.facing")}</span>
       <button type="button" class="quiet" onClick={() => (facing.value = null)}>
+        {t("point.close")}
+      </button>
+    </div>
+  );
+}
+
+function Moving({ name }: { name: string }) {
+  return (
+    <div class="map-tools" role="status" id="moving">
+      <span>{t("places.moving", { name })}</span>
+      <button type="button" class="quiet" onClick={() => (moving.value = null)}>
         {t("point.close")}
       </button>
     </div>
@@ -65,6 +80,7 @@ function Drawing() {
   const now = drawn.value;
   if (!now) return null;
   const flaw = flawOf(now.corners);
+  const speeds = SPEEDS.includes(slowMps.value) ? SPEEDS : [...SPEEDS, slowMps.value];
   return (
     <div class="map-tools" id="outline">
       <span role="status">
@@ -72,6 +88,7 @@ function Drawing() {
           n: String(now.corners.length),
         })}
         {flaw && now.corners.length >= 3 ? ` ${t(`marks.flaw_${flaw}`)}` : ""}
+        {now.corners.length >= 3 && <small class="fine"> {t("marks.drag")}</small>}
       </span>
       {now.kind === "slow" && (
         <select
@@ -79,7 +96,7 @@ function Drawing() {
           value={String(slowMps.value)}
           onChange={(event) => (slowMps.value = Number(event.currentTarget.value))}
         >
-          {SPEEDS.map((speed) => (
+          {speeds.map((speed) => (
             <option key={speed} value={String(speed)}>
               {t("marks.at_most", { speed: String(speed) })}
             </option>
@@ -96,9 +113,14 @@ function Drawing() {
         {t("marks.save")}
       </button>
       {crosshair.value && (
-        <button type="button" onClick={() => crosshair.value && addCorner(crosshair.value)}>
-          {t("marks.corner")}
-        </button>
+        <>
+          <button type="button" onClick={() => crosshair.value && addCorner(crosshair.value)}>
+            {t("marks.corner")}
+          </button>
+          <button type="button" onClick={() => crosshair.value && bringCorner(crosshair.value)}>
+            {t("marks.bring")}
+          </button>
+        </>
       )}
       <button type="button" onClick={undoCorner}>
         {t("marks.undo")}
@@ -110,7 +132,7 @@ function Drawing() {
   );
 }
 
-/** List the marks beside the legend; each can be drawn anew or deleted. */
+/** List the marks beside the legend; each can be changed or deleted. */
 export function MarkList() {
   const marks = marksShown.value;
   if (!marks || marks.keep_outs.length + marks.speed_zones.length === 0) return null;
@@ -140,7 +162,7 @@ function Mark({ kind, at, name }: { kind: "keep_out" | "slow"; at: number; name:
         type="button"
         aria-label={`${t("marks.again")}: ${name}`}
         disabled={saving.value}
-        onClick={() => void deleteMark(kind, at, true)}
+        onClick={() => changeMark(kind, at)}
       >
         {t("marks.again")}
       </button>

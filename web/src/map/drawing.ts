@@ -1,9 +1,10 @@
 /**
  * Draw what lies and moves on the map as SVG in metres, y up: fence, zones, scan, path, robot.
- * Leaflet scales it; nothing here knows pixels. What moves has a layer of its own, so that a browser
+ * The view scales it; nothing here knows pixels. What moves has a layer of its own, so that a browser
  * paints nothing else for it.
  */
 import type { Candidate, Grid, Layers, Mover, Path, Pose, ProposedRoom, Scan } from "../wire/types";
+import { contourPath } from "./contours";
 import { PointDrawing } from "./pointDrawing";
 import { type Point, unwound } from "./resolve";
 
@@ -84,6 +85,7 @@ function layer(name: string, ...content: readonly SVGElement[]): SVGSVGElement {
 
 export class Drawing {
   readonly points = new PointDrawing();
+  private readonly walls = make("path", { class: "standing" });
   private readonly fence = make("path", { class: "fence" });
   private readonly zones = make("path", { class: "zone" });
   private readonly scan = make("path", { class: "scan" });
@@ -101,6 +103,7 @@ export class Drawing {
   private degrees = 0;
   /** From the lowest up; all cover the same. */
   readonly layers: readonly SVGSVGElement[] = [
+    layer("layer", this.walls),
     layer("layer", this.scan),
     layer("layer", this.suspicions, this.cells, this.movers),
     layer(
@@ -140,6 +143,10 @@ export class Drawing {
     this.movers.setAttribute("d", discs(movers));
   }
 
+  showFence(on: boolean): void {
+    this.fence.style.display = on ? "" : "none";
+  }
+
   /** Draw the outlines of rooms that wait for a name. */
   showRooms(rooms: readonly ProposedRoom[]): void {
     this.rooms.setAttribute("d", rooms.map((room) => `${outlineOf(room.polygon)}Z`).join(""));
@@ -148,6 +155,7 @@ export class Drawing {
   /** Cover a map, in metres. */
   cover(grid: Grid): void {
     this.cellSize = grid.resolution_m;
+    this.walls.setAttribute("d", contourPath(grid));
     const { x_m, y_m } = grid.origin;
     const wide = grid.width * grid.resolution_m;
     const high = grid.height * grid.resolution_m;

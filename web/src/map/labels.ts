@@ -1,28 +1,93 @@
-/** Keep labels from lying on each other: the later one waits until a person zooms in. */
+/**
+ * Find room for the labels of the map so that none lies on another, on the robot or on a button. Pure.
+ * Who comes first chooses first; a label without room is left out, and its mark tells that there is one.
+ */
+import type { Point } from "./resolve";
 
-export type Box = Pick<DOMRect, "left" | "top" | "right" | "bottom">;
+export type PixelBox = {
+  readonly left: number;
+  readonly top: number;
+  readonly right: number;
+  readonly bottom: number;
+};
 
-const overlap = (one: Box, other: Box): boolean =>
+export type Label = {
+  readonly at: Point; // of what it names [px]
+  readonly width: number;
+  readonly height: number;
+  /** Half of the mark at `at`; 0: the name stands on its point, as a room's does. */
+  readonly mark: number;
+};
+
+/** Where a label's middle is, and whether a line must lead from it to what it names. */
+export type Spot = Point & { readonly leads: boolean };
+
+export const meet = (one: PixelBox, other: PixelBox): boolean =>
   one.left < other.right &&
   other.left < one.right &&
   one.top < other.bottom &&
   other.top < one.bottom;
 
-/** Tell of each box whether it lies on a fixed one or on an earlier one that is shown. */
-export function crowded(boxes: readonly Box[], fixed: readonly Box[]): boolean[] {
-  const shown = [...fixed];
-  return boxes.map((box) => {
-    const hidden = shown.some((other) => overlap(box, other));
-    if (!hidden) shown.push(box);
-    return hidden;
-  });
+export const boxAround = ({ x, y }: Point, halfWidth: number, halfHeight: number): PixelBox => ({
+  left: x - halfWidth,
+  top: y - halfHeight,
+  right: x + halfWidth,
+  bottom: y + halfHeight,
+});
+
+export const boxOf = (label: Label, spot: Point): PixelBox =>
+  boxAround(spot, label.width / 2, label.height / 2);
+
+const AROUND: readonly (readonly [number, number])[] = [
+  [0, 1],
+  [1, 0],
+  [-1, 0],
+  [0, -1],
+  [1, 1],
+  [-1, 1],
+  [1, -1],
+  [-1, -1],
+];
+const GAP_PX = 3;
+/** So far may a label with a line be from its mark, in heights of its own. */
+const LEADS = [1.4, 2.6];
+const ASIDE = [1.1, 2.2, 3.3];
+
+/** Return the spots that a label may take, the best first. */
+export function spotsOf(label: Label): readonly Spot[] {
+  const { at, width, height, mark } = label;
+  const ring = (away: number, leads: boolean): Spot[] =>
+    AROUND.map(([x, y]) => ({
+      x: at.x + x * (width / 2 + away),
+      y: at.y + y * (height / 2 + away),
+      leads,
+    }));
+  if (mark > 0)
+    return [
+      ring(mark + GAP_PX, false),
+      ...LEADS.map((by) => ring(mark + by * height, true)),
+    ].flat();
+  const aside = ASIDE.flatMap((by) =>
+    AROUND.map(([x, y]) => ({ x: at.x + (x * by * width) / 3, y: at.y + y * by * height })),
+  );
+  return [at, ...aside].map(({ x, y }) => ({ x, y, leads: false }));
 }
 
-/** Hide the names of things that lie on the name of a room, a place or another thing. */
-export function spreadLabels(map: HTMLElement): void {
-  const labels = [...map.querySelectorAll<HTMLElement>(".thing span")];
-  const names = [...map.querySelectorAll(".name span")];
-  const boxOf = (element: Element): Box => element.getBoundingClientRect();
-  const hidden = crowded(labels.map(boxOf), names.map(boxOf));
-  labels.forEach((label, index) => label.classList.toggle("crowded", hidden[index]));
+/** Return a spot for each label, null for one that has no room; `blocked` is never covered. */
+export function placeLabels(
+  labels: readonly Label[],
+  blocked: readonly PixelBox[],
+): readonly (Spot | null)[] {
+  const marks = labels.map(({ at, mark }) => boxAround(at, mark, mark));
+  const taken = [...blocked];
+  return labels.map((label, index) => {
+    const free = (spot: Spot): boolean => {
+      const box = boxOf(label, spot);
+      if (taken.some((other) => meet(box, other))) return false;
+      return !marks.some((mark, other) => other !== index && meet(box, mark));
+    };
+    const spot = spotsOf(label).find(free) ?? null;
+    if (spot !== null) taken.push(boxOf(label, spot));
+    return spot;
+  });
 }

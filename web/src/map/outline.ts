@@ -57,6 +57,27 @@ export const rounded = ([x, y]: Corner): Corner => [
   Math.round(y * 1e3) / 1e3,
 ];
 
+/** Return the number of the corner that is nearest to a point, within so much of it [m]; null for none. */
+export function cornerAt(outline: Outline, { x, y }: Point, withinM: number): number | null {
+  const away = outline.map((corner) => Math.hypot(corner[0] - x, corner[1] - y));
+  const least = Math.min(...away);
+  return least <= withinM ? away.indexOf(least) : null;
+}
+
+export const withCorner = (outline: Outline, index: number, { x, y }: Point): Outline =>
+  outline.map((corner, at) => (at === index ? rounded([x, y]) : corner));
+
+/** Return an outline with one corner more, in the side that is nearest to it. */
+export function withCornerBetween(outline: Outline, { x, y }: Point): Outline {
+  const longer = outline.map((from, index) => {
+    const to = outline[(index + 1) % outline.length] ?? from;
+    const by = Math.hypot(from[0] - x, from[1] - y) + Math.hypot(to[0] - x, to[1] - y);
+    return by - Math.hypot(to[0] - from[0], to[1] - from[1]);
+  });
+  const side = longer.indexOf(Math.min(...longer));
+  return [...outline.slice(0, side + 1), rounded([x, y]), ...outline.slice(side + 1)];
+}
+
 const STEPS: Readonly<Record<string, Corner>> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -66,12 +87,19 @@ const STEPS: Readonly<Record<string, Corner>> = {
 export const STEP_M = 0.1;
 export const STRIDE_M = 0.5;
 
-/** Return where an arrow key moves a point to; null for any other key. */
-export function stepped(from: Point, key: string, far: boolean): Point | null {
+/**
+ * Return where an arrow key moves a point to, as the arrow points on a map that is turned so far
+ * clockwise [rad]; null for any other key.
+ */
+export function stepped(from: Point, key: string, far: boolean, turn = 0): Point | null {
   const step = STEPS[key];
   if (!step) return null;
   const by = far ? STRIDE_M : STEP_M;
-  return { x: from.x + step[0] * by, y: from.y + step[1] * by };
+  const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+  return {
+    x: from.x + by * (step[0] * cos - step[1] * sin),
+    y: from.y + by * (step[0] * sin + step[1] * cos),
+  };
 }
 
 export const TRAIL_M = 0.1;

@@ -29,6 +29,7 @@ export class PointDrawing {
   private readonly corners = path("mark-corner");
   private readonly row = path("point-row");
   private readonly aim = path("point-aim");
+  private readonly move = path("place-move");
   /** From the lowest up. */
   readonly elements: readonly SVGPathElement[] = [
     this.slow,
@@ -38,6 +39,7 @@ export class PointDrawing {
     this.outline,
     this.corners,
     this.aim,
+    this.move,
   ];
 
   showMarks(marks: Marks | null): void {
@@ -55,11 +57,17 @@ export class PointDrawing {
   showRow(points: readonly GoalPoint[]): void {
     const way = points.map(({ x_m, y_m }): readonly [number, number] => [x_m, y_m]);
     const poses = points.map(({ x_m, y_m, yaw_rad }) => pose(x_m, y_m, yaw_rad)).join("");
-    this.row.setAttribute("d", points.length > 1 ? `${poses}M${line(way)}` : poses);
+    this.row.setAttribute("d", points.length > 1 ? `${poses}M${line(way)}` : poses); // numbered by its names
   }
 
   showTrail(trail: Outline): void {
     this.trail.setAttribute("d", trail.length > 1 ? `M${line(trail)}` : "");
+  }
+
+  /** Show from where a place is moved, and where to. */
+  showMove(from: Point | null, to: Point | null): void {
+    const line = from && to ? `M${from.x} ${from.y}L${to.x} ${to.y}${ring(to.x, to.y, 0.15)}` : "";
+    this.move.setAttribute("d", line);
   }
 
   /** Show the point that is pointed at, with a heading where one is being given. */

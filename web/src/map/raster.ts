@@ -1,4 +1,4 @@
-/** Draw the map's cells as a picture: walls, and floor in each room's tint; unknown see-through. */
+/** Draw the map's floor as a picture, in each room's tint, also below what stands; unknown see-through. */
 import type { Place } from "../wire/types";
 import { Cells, FREE, OCCUPIED } from "./cells";
 import { contains, type Point } from "./resolve";
@@ -7,7 +7,7 @@ export type Rgb = readonly [number, number, number];
 export type Floor = (point: Point) => Rgb;
 
 /** Return the picture's pixels, its first row the highest y; null where the cells are not as many. */
-export function pixels(cells: Cells, floor: Floor, wall: Rgb): Uint8ClampedArray | null {
+export function pixels(cells: Cells, floor: Floor): Uint8ClampedArray | null {
   if (!cells.whole) return null;
   const { width, height } = cells.grid;
   const out = new Uint8ClampedArray(width * height * 4);
@@ -16,7 +16,7 @@ export function pixels(cells: Cells, floor: Floor, wall: Rgb): Uint8ClampedArray
       const cell = cells.at(column, row);
       if (cell !== FREE && cell !== OCCUPIED) continue;
       const at = ((height - 1 - row) * width + column) * 4;
-      out.set([...(cell === FREE ? floor(cells.point(column, row)) : wall), 255], at);
+      out.set([...floor(cells.point(column, row)), 255], at);
     }
   }
   return out;
@@ -34,8 +34,8 @@ export function tinted(places: readonly Place[], bare: Rgb, tints: readonly Rgb[
 }
 
 /** Return the picture as a data URL, which the page's policy allows for images alone. */
-export function picture(cells: Cells, floor: Floor, wall: Rgb): string | null {
-  const data = pixels(cells, floor, wall);
+export function picture(cells: Cells, floor: Floor): string | null {
+  const data = pixels(cells, floor);
   const canvas = document.createElement("canvas");
   canvas.width = cells.grid.width;
   canvas.height = cells.grid.height;

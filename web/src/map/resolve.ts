@@ -5,16 +5,22 @@ export const NEAR_M = 0.45;
 
 export type Point = { readonly x: number; readonly y: number };
 
-export function resolve(places: readonly Place[], point: Point): Place | null {
+/** Return the place, not the room, that is nearest to a point within so much of it [m]. */
+export function placeAt(places: readonly Place[], point: Point, withinM: number): Place | null {
   const near = places
     .filter((place) => place.kind === "place")
     .map((place) => ({
       place,
       away: Math.hypot(place.pose.x_m - point.x, place.pose.y_m - point.y),
     }))
-    .filter(({ away }) => away <= NEAR_M)
+    .filter(({ away }) => away <= withinM)
     .sort((a, b) => a.away - b.away)[0];
-  if (near) return near.place;
+  return near?.place ?? null;
+}
+
+export function resolve(places: readonly Place[], point: Point): Place | null {
+  const near = placeAt(places, point, NEAR_M);
+  if (near) return near;
   const room = places.find(
     (place) => place.kind === "room" && place.polygon && contains(place.polygon, point),
   );

@@ -1,143 +1,168 @@
-/** Put the drawing, the map's picture and the names into Leaflet. Knows no signal and no goal. */
-import * as L from "leaflet";
-import type { Candidate, Grid, Place, Pose, ProposedRoom, Thing } from "../wire/types";
+/** Show drawing, picture and names under one camera. Knows no signal and no goal. */
 import { percent } from "../panels/format";
 import { isDark } from "../state/theme";
-import { Cells, nameSpot } from "./cells";
+import type { Candidate, Grid, Place, Pose, ProposedRoom, Thing } from "../wire/types";
+import {
+  type Camera,
+  changed,
+  fitting,
+  heldOver,
+  originOf,
+  revealing,
+  toPixel,
+  toPoint,
+  unmovedPixel,
+} from "./camera";
+import { type Box, Cells, nameSpot } from "./cells";
 import { Drawing } from "./drawing";
-import { spreadLabels } from "./labels";
+import { Gestures, type Touched } from "./gestures";
+import { boxAround, type PixelBox } from "./labels";
+import { colourClass, type Kind, type Nameplate, Nameplates } from "./nameplates";
 import { colour, picture, tinted } from "./raster";
 import type { Point } from "./resolve";
-import { Things } from "./things";
 
-const SMALL_PX_PER_M = 38; // below it only rooms have names
+const SMALL_PX_PER_M = 38; // below it letters are smaller
+const FIT_PX = 10;
+const REVEAL_PX = 40;
+const SETTLED_MS = 150; // after a pan, names keep off the buttons again
 const TINTS = ["--tint-0", "--tint-1", "--tint-2", "--tint-3"];
+
+export type Listening = Omit<Touched, "camera" | "look"> & {
+  /** Called in the frame in which the map is seen otherwise. */
+  readonly looked: (camera: Camera) => void;
+};
 
 export class MapView {
   readonly drawing = new Drawing();
-  private readonly map: L.Map;
-  private readonly names = L.layerGroup();
-  private readonly roomNumbers = L.layerGroup();
-  private readonly guesses = L.layerGroup();
-  private readonly things = new Things();
-  private image: L.ImageOverlay | null = null;
-  private overlays: readonly L.SVGOverlay[] = [];
-  private zoom: L.Control.Zoom | null = null;
+  private readonly plates = new Nameplates();
+  private readonly turned = document.createElement("div");
+  private readonly image = document.createElement("img");
+  private readonly resized: ResizeObserver;
+  private readonly unsubscribe: () => void;
+  private camera: Camera = { x: 0, y: 0, scale: 1, turn: 0, width: 0, height: 0 };
+  private drawn: Camera | null = null;
   private cells: Cells | null = null;
-  private shown: L.LatLngBounds | null = null;
-  private spreads = false;
+  private known: Box | null = null;
+  private framed = false;
+  private unplaced = true;
+  private settling: ReturnType<typeof setTimeout> | undefined;
   private places: readonly Place[] = [];
   private nameOf: (place: Place) => string = (place) => place.id;
+  private spots = new Map<string, Point>();
+  private robot: Point | null = null;
+  private radius = 0.3;
 
   constructor(
     private readonly place: HTMLElement,
-    onClick: (point: Point) => void,
-    onHover: (point: Point) => void,
+    private readonly listening: Listening,
   ) {
-    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    this.map = L.map(place, {
-      crs: L.CRS.Simple,
-      zoomControl: false,
-      attributionControl: false,
-      zoomSnap: 0,
-      zoomDelta: 0.5,
-      wheelPxPerZoomLevel: 120,
-      minZoom: 2,
-      maxZoom: 9,
-      zoomAnimation: !still,
-      fadeAnimation: false,
-      inertia: !still,
-      doubleClickZoom: false,
-      keyboard: false, // the arrow keys move the crosshair
+    this.turned.className = "turned";
+    this.image.className = "cells";
+    this.image.alt = "";
+    this.image.draggable = false;
+    this.turned.append(this.image, ...this.drawing.layers);
+    place.append(this.turned, this.plates.element);
+    new Gestures(place, {
+      ...listening,
+      camera: () => this.camera,
+      look: (next) => this.look(next),
     });
-    this.names.addTo(this.map);
-    this.roomNumbers.addTo(this.map);
-    this.guesses.addTo(this.map);
-    this.things.layer.addTo(this.map);
-    this.map.on("click", (event: L.LeafletMouseEvent) =>
-      onClick({ x: event.latlng.lng, y: event.latlng.lat }),
-    );
-    this.map.on("mousemove", (event: L.LeafletMouseEvent) =>
-      onHover({ x: event.latlng.lng, y: event.latlng.lat }),
-    );
-    this.map.on("zoomend", () => this.markSmall());
-    new ResizeObserver(() => this.fit()).observe(place);
-    isDark.subscribe(() => this.paint());
+    this.resized = new ResizeObserver(() => this.fit());
+    this.resized.observe(place);
+    this.unsubscribe = isDark.subscribe(() => this.paint());
   }
 
   showGrid(grid: Grid): void {
-    const first = this.cells === null;
-    const before = this.shown;
+    const before = JSON.stringify(this.known);
     this.cells = new Cells(grid);
-    const { left, bottom, right, top } = this.cells.known();
-    this.shown = L.latLngBounds([bottom, left], [top, right]);
+    this.known = this.cells.known();
     this.drawing.cover(grid);
-    const bounds = boundsOf(grid);
-    if (first) {
-      this.overlays = this.drawing.layers.map((layer) =>
-        L.svgOverlay(layer, bounds, { pane: "overlayPane" }).addTo(this.map),
-      );
-      this.map.fitBounds(this.shown, { animate: false });
-    }
-    for (const overlay of this.overlays) overlay.setBounds(bounds);
-    this.map.setMaxBounds(this.shown.pad(0.5));
+    this.drawn = null; // its layers may cover other metres
     this.paint();
+    this.spotNames();
     this.writeNames();
-    if (!before?.equals(this.shown)) this.fit(); // a map that grew inside keeps a person's zoom
+    if (before === JSON.stringify(this.known)) this.draw();
+    else this.fit(); // a map that grew inside keeps a person's zoom
   }
 
   showNames(places: readonly Place[], nameOf: (place: Place) => string): void {
     const others = this.places !== places;
     this.places = places;
     this.nameOf = nameOf;
-    if (others) this.paint();
+    if (others) {
+      this.paint();
+      this.spotNames();
+    }
     this.writeNames();
   }
 
+  private writeNames(): void {
+    for (const kind of ["room", "place"] as const) {
+      const those = this.places.filter((place) => place.kind === kind);
+      const plate = (place: Place): Nameplate => {
+        const at = this.spots.get(place.id) ?? pointOf(place.pose);
+        return { id: place.id, text: this.nameOf(place), at };
+      };
+      this.write(kind, those.map(plate));
+    }
+  }
+
   showThings(things: readonly Thing[], nameOf: (thing: Thing) => string): void {
-    this.things.show(things, nameOf);
-    this.spread();
+    const plate = (thing: Thing): Nameplate => ({
+      id: thing.id,
+      text: nameOf(thing),
+      at: pointOf(thing),
+      more: colourClass(thing.color),
+    });
+    this.write("thing", things.map(plate));
+  }
+
+  /** Number the points of a row, in the order in which they are driven to. */
+  showRow(points: readonly Pick<Pose, "x_m" | "y_m">[]): void {
+    const plate = (point: Pick<Pose, "x_m" | "y_m">, index: number): Nameplate => ({
+      id: String(index),
+      text: String(index + 1),
+      at: pointOf(point),
+    });
+    this.write("row", points.map(plate));
   }
 
   /** Draw rooms that wait for a name, each with the number by which it is asked for. */
   showRooms(rooms: readonly ProposedRoom[]): void {
     this.drawing.showRooms(rooms);
-    this.roomNumbers.clearLayers();
-    for (const { id, pose } of rooms)
-      write(`${id.replace("room_", "")}?`, "name name-proposed", pose).addTo(this.roomNumbers);
+    const plate = ({ id, pose }: ProposedRoom): Nameplate => ({
+      id,
+      text: `${id.replace("room_", "")}?`,
+      at: pointOf(pose),
+    });
+    this.write("proposed", rooms.map(plate));
   }
 
   /** Draw where the robot might be, each with how well the scan fits there. */
   showGuesses(candidates: readonly Candidate[]): void {
     this.drawing.showGuesses(candidates);
-    this.guesses.clearLayers();
-    for (const { pose, score } of candidates)
-      write(percent(score), "name name-guess", pose).addTo(this.guesses);
-  }
-
-  /** Spread labels in the next frame, once for all that changed in this one. */
-  private spread(): void {
-    if (this.spreads) return;
-    this.spreads = true;
-    requestAnimationFrame(() => {
-      this.spreads = false;
-      spreadLabels(this.place);
+    const plate = ({ pose, score }: Candidate, index: number): Nameplate => ({
+      id: String(index),
+      text: percent(score),
+      at: pointOf(pose),
     });
+    this.write("guess", candidates.map(plate));
   }
 
-  private writeNames(): void {
-    this.names.clearLayers();
-    for (const place of this.places) {
-      const { x, y } = nameSpot(place, this.places, this.cells);
-      const at = { x_m: x, y_m: y };
-      write(this.nameOf(place), `name name-${place.kind}`, at).addTo(this.names);
-    }
-    this.spread();
+  showBody(radius: number): void {
+    this.radius = radius;
+    this.drawing.showBody(radius);
   }
 
-  showZoom(zoomInTitle: string, zoomOutTitle: string): void {
-    this.zoom?.remove();
-    this.zoom = L.control.zoom({ zoomInTitle, zoomOutTitle, position: "topright" }).addTo(this.map);
+  showRobot(pose: Pose | null): void {
+    this.drawing.showRobot(pose);
+    this.robot = pose && pointOf(pose);
+    if (this.plates.crowds(this.robotBox())) this.replaceNames();
+  }
+
+  /** Say whether a name stands nowhere for want of room. */
+  isLeftOut(id: string): boolean {
+    return this.plates.isLeftOut(id);
   }
 
   /** Show that the next click gives a point and no goal. */
@@ -145,78 +170,140 @@ export class MapView {
     this.place.classList.toggle("picking", on);
   }
 
-  /** Let a finger or the mouse drag what is aimed at, and not the map. */
-  holdStill(still: boolean): void {
-    if (still) this.map.dragging.disable();
-    else this.map.dragging.enable();
-  }
-
-  /** Return the point of the map under a pixel of the window. */
-  pointAt(event: MouseEvent): Point {
-    const { lat, lng } = this.map.mouseEventToLatLng(event);
-    return { x: lng, y: lat };
-  }
-
   /** Show the whole map. */
-  showAll(): void {
-    this.fit();
+  fit(): void {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (!this.known || width === 0 || height === 0) return;
+    this.look(fitting({ ...this.camera, width, height }, this.known, FIT_PX));
+  }
+
+  zoom(factor: number): void {
+    this.look(changed(this.camera, factor, 0, this.middle()));
+  }
+
+  /** Turn the map clockwise [rad]; null: its top up again. */
+  turn(by: number | null): void {
+    this.look(changed(this.camera, 1, by ?? -this.camera.turn, this.middle()));
   }
 
   /** Bring a point into view, where it is not well inside. */
-  reveal({ x, y }: Point): void {
-    this.map.panInside([y, x], { padding: [40, 40], animate: false });
+  reveal(point: Point): void {
+    this.look(revealing(this.camera, point, REVEAL_PX));
   }
 
   centre(): Point {
-    const { lat, lng } = this.map.getCenter();
-    return { x: lng, y: lat };
+    return toPoint(this.camera, this.middle());
   }
 
   /** Return where a point of the map is in the view [px]. */
-  pixel({ x, y }: Point): { left: number; top: number } {
-    const at = this.map.latLngToContainerPoint([y, x]);
-    return { left: at.x, top: at.y };
+  pixel(point: Point): Point {
+    return toPixel(this.camera, point);
   }
 
   close(): void {
-    this.map.remove();
+    clearTimeout(this.settling);
+    this.resized.disconnect();
+    this.unsubscribe();
   }
 
-  private fit(): void {
-    this.map.invalidateSize({ animate: false });
-    if (this.shown) this.map.fitBounds(this.shown, { animate: false, padding: [10, 10] });
-    this.markSmall();
+  private middle(): Point {
+    return { x: this.camera.width / 2, y: this.camera.height / 2 };
   }
 
-  private markSmall(): void {
-    this.place.classList.toggle("small", 2 ** this.map.getZoom() < SMALL_PX_PER_M);
-    this.spread();
+  private look(next: Camera): void {
+    if (next === this.camera) return;
+    this.camera = this.known ? heldOver(next, this.known) : next;
+    this.draw();
+  }
+
+  private write(kind: Kind, plates: readonly Nameplate[]): void {
+    if (this.plates.show(kind, plates)) this.replaceNames();
+  }
+
+  private replaceNames(): void {
+    this.unplaced = true;
+    this.draw();
+  }
+
+  /** Draw in the next frame, once for all that changed in this one. */
+  private draw(): void {
+    if (this.framed) return;
+    this.framed = true;
+    requestAnimationFrame(() => {
+      this.framed = false;
+      if (this.camera.width > 0) this.frame();
+    });
+  }
+
+  private frame(): void {
+    const { camera, drawn } = this;
+    const origin = originOf(camera);
+    const moved = `translate(${origin.x}px, ${origin.y}px)`;
+    this.turned.style.transform = `${moved} rotate(${camera.turn}rad)`;
+    this.plates.element.style.transform = moved;
+    const zoomed = drawn?.scale !== camera.scale;
+    if (zoomed) this.sizeLayers();
+    if (zoomed || drawn?.turn !== camera.turn || this.unplaced) this.placeNames();
+    else this.settle();
+    this.drawn = camera;
+    this.listening.looked(camera);
+  }
+
+  /** Lay the layers out for how large a metre is. */
+  private sizeLayers(): void {
+    const { scale } = this.camera;
+    if (this.cells) {
+      const { origin, width, height, resolution_m } = this.cells.grid;
+      const top = origin.y_m + height * resolution_m;
+      for (const { style } of [this.image, ...this.drawing.layers]) {
+        style.left = `${scale * origin.x_m}px`;
+        style.top = `${-scale * top}px`;
+        style.width = `${scale * width * resolution_m}px`;
+        style.height = `${scale * height * resolution_m}px`;
+      }
+    }
+    const isSmall = scale < SMALL_PX_PER_M;
+    if (this.place.classList.contains("small") === isSmall) return;
+    this.place.classList.toggle("small", isSmall);
+    this.plates.resize();
+  }
+
+  private placeNames(): void {
+    this.unplaced = false;
+    const origin = originOf(this.camera);
+    const view = this.place.getBoundingClientRect();
+    const buttons = this.place.parentElement?.querySelectorAll(".map-layers, .map-buttons") ?? [];
+    const blocked = [...buttons].map((button): PixelBox => {
+      const box = button.getBoundingClientRect();
+      const [x, y] = [view.left + origin.x, view.top + origin.y];
+      return { left: box.left - x, top: box.top - y, right: box.right - x, bottom: box.bottom - y };
+    });
+    this.plates.place(this.camera, blocked, this.robotBox());
+  }
+
+  private settle(): void {
+    clearTimeout(this.settling);
+    this.settling = setTimeout(() => this.placeNames(), SETTLED_MS);
+  }
+
+  private robotBox(): PixelBox | null {
+    if (!this.robot) return null;
+    const half = this.camera.scale * this.radius + 2;
+    return boxAround(unmovedPixel(this.camera, this.robot), half, half);
+  }
+
+  private spotNames(): void {
+    this.spots = new Map(
+      this.places.map((place) => [place.id, nameSpot(place, this.places, this.cells)]),
+    );
   }
 
   private paint(): void {
     if (this.cells === null) return;
     const floor = tinted(this.places, colour("--floor"), TINTS.map(colour));
-    const url = picture(this.cells, floor, colour("--wall"));
-    if (url === null) return;
-    const bounds = boundsOf(this.cells.grid);
-    this.image ??= L.imageOverlay(url, bounds, { className: "cells" }).addTo(this.map);
-    this.image.setBounds(bounds);
-    this.image.setUrl(url);
-    this.image.bringToBack();
+    const url = picture(this.cells, floor);
+    if (url !== null) this.image.src = url;
   }
 }
 
-function write(text: string, className: string, at: Pick<Pose, "x_m" | "y_m">): L.Marker {
-  const label = document.createElement("span");
-  label.textContent = text; // as text: a name may hold anything
-  const icon = L.divIcon({ html: label, className, iconSize: [0, 0] });
-  return L.marker([at.y_m, at.x_m], { icon, interactive: false, keyboard: false });
-}
-
-function boundsOf(grid: Grid): L.LatLngBounds {
-  const { x_m, y_m } = grid.origin;
-  return L.latLngBounds(
-    [y_m, x_m],
-    [y_m + grid.height * grid.resolution_m, x_m + grid.width * grid.resolution_m],
-  );
-}
+const pointOf = ({ x_m, y_m }: Pick<Pose, "x_m" | "y_m">): Point => ({ x: x_m, y: y_m });

@@ -14,8 +14,10 @@ import type {
   Memories,
   NewPerson,
   Objects,
+  OrderRun,
   Person,
   PersonRole,
+  Place,
   Pose,
   StandingOrders,
   Taught,
@@ -34,6 +36,8 @@ export class ApiError extends Error {
 }
 
 const TIMEOUT_MS = 8000;
+/** So long may a recording take to be read. */
+export const RECORDED_MS = 25_000;
 const HEARD_MS = 40_000; // the owner's recogniser may take 30 s, the built-in one answers then
 
 type Json = { readonly [key: string]: unknown };
@@ -194,6 +198,15 @@ export async function teachPlace(
   return (await call("POST", "v1/places", body)) as Taught;
 }
 
+/** Teach a place somewhere else, under the id and names that it has. */
+export async function movePlace(
+  { id, name }: Pick<Place, "id" | "name">,
+  point: Pose,
+): Promise<void> {
+  const names = { en: name.en, zh: name.zh };
+  await call("PUT", `v1/places/${encodeURIComponent(id)}`, { name: names, point, source: "page" });
+}
+
 /** Tell localization where the robot is: at a point of the map, or in a place. */
 export async function hintPose(where: { point: Point } | { place: string }): Promise<void> {
   await call("POST", "v1/localization/hint", { source: "page", ...where });
@@ -212,6 +225,11 @@ export async function fetchHistory(id: string): Promise<readonly Firing[]> {
     readonly history: readonly Firing[];
   };
   return shown.history;
+}
+
+/** Return the newest runs of all standing orders, newest first. */
+export async function fetchRuns(): Promise<readonly OrderRun[]> {
+  return ((await call("GET", "v1/orders/firings")) as { firings: readonly OrderRun[] }).firings;
 }
 
 /** Give a standing order as a sentence; return what the robot will do, in both languages. */
@@ -246,12 +264,16 @@ export const fetchPicture = (): Promise<Blob> => fetchBlob("v1/camera.jpg");
 /** Fetch a picture that a patrol kept. */
 export const fetchKeptPicture = (id: number): Promise<Blob> => fetchBlob(`v1/pictures/${id}`);
 
-async function fetchBlob(path: string): Promise<Blob> {
-  const signal = AbortSignal.timeout(TIMEOUT_MS);
+/** Fetch a mission as one HTML file to share; the black box is read for it by a process. */
+export const fetchMissionPage = (id: string, language: Language): Promise<Blob> =>
+  fetchBlob(`v1/history/${encodeURIComponent(id)}/page?language=${language}`, RECORDED_MS);
+
+async function fetchBlob(path: string, timeoutMs = TIMEOUT_MS): Promise<Blob> {
+  const signal = AbortSignal.timeout(timeoutMs);
   const proof = authorization();
   const answer = await asked(path, { headers: proof, signal, cache: "no-store" });
   if (answer.ok) return answer.blob();
-  throw refusal(answer, {}, proof);
+  throw refusal(answer, ((await answer.json().catch(() => null)) as Json | null) ?? {}, proof);
 }
 
 /** Return the pictures that a goal's patrols kept. */

@@ -2,6 +2,7 @@
 import { computed, useSignal } from "@preact/signals";
 import { rowWords, t, word } from "../i18n";
 import { Cells } from "../map/cells";
+import { contourPath } from "../map/contours";
 import { colour, picture, tinted } from "../map/raster";
 import { grid } from "../state/store";
 import type { Track, TrackSample } from "../wire/missions";
@@ -21,7 +22,7 @@ const isKnown = (one: TrackSample): one is Known => one.x_m !== null;
 
 const floor = computed(() => {
   const cells = grid.value === null ? null : new Cells(grid.value);
-  return cells && picture(cells, tinted([], colour("--floor"), []), colour("--wall"));
+  return cells && picture(cells, tinted([], colour("--floor"), []));
 });
 
 /** Return the box of the drawing: around the way, y down as a screen has it. */
@@ -91,5 +92,10 @@ function Way({ way, now }: { way: readonly Known[]; now: TrackSample }) {
 function Floor({ of, href }: { of: Grid; href: string }) {
   const [width, height] = [of.width * of.resolution_m, of.height * of.resolution_m];
   const y = -of.origin.y_m - height;
-  return <image href={href} x={of.origin.x_m} y={y} width={width} height={height} />;
+  return (
+    <>
+      <image href={href} x={of.origin.x_m} y={y} width={width} height={height} />
+      <path class="standing" transform="scale(1,-1)" d={contourPath(of)} />
+    </>
+  );
 }

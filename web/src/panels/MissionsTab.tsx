@@ -1,4 +1,5 @@
 /** List what the robot was told, by day, and show one mission whole, with its recording. */
+import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { say, t, word } from "../i18n";
 import {
@@ -7,6 +8,7 @@ import {
   look,
   missions,
   more,
+  share,
   shown,
   STATES,
   track,
@@ -175,7 +177,26 @@ function One({ mission }: { mission: Mission }) {
       ) : (
         <MissionTrack key={goal.id} track={track.value} />
       )}
-      <p class="fine">{t("missions.share", { id: goal.id })}</p>
+      <Share id={goal.id} />
     </section>
+  );
+}
+
+function Share({ id }: { id: string }) {
+  const saving = useSignal(false);
+  return (
+    <>
+      <button
+        type="button"
+        disabled={saving.value}
+        onClick={() => {
+          saving.value = true;
+          void share(id).then(() => (saving.value = false));
+        }}
+      >
+        {t("missions.save")}
+      </button>
+      <p class="fine">{t("missions.share", { id })}</p>
+    </>
   );
 }

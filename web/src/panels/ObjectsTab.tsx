@@ -1,6 +1,6 @@
 /** List what the robot remembers to have seen, with its age; go to a thing, or forget it. */
 import { signal } from "@preact/signals";
-import { colourClass } from "../map/things";
+import { colourClass } from "../map/nameplates";
 import { t } from "../i18n";
 import { forgetThing, give } from "../state/acts";
 import { pageFresh } from "../state/store";

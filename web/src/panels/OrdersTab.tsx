@@ -5,7 +5,7 @@ import { say, t } from "../i18n";
 import { fetchHistory, fetchOrders } from "../net/api";
 import { keepOrder, turnOrder } from "../state/acts";
 import { ordersVersion, pageFresh } from "../state/store";
-import { localTime, standsWords } from "./standing";
+import { localTime, runWords, standsWords } from "./standing";
 import type { Firing, StandingOrder, StandingOrders } from "../wire/types";
 
 const known = signal<StandingOrders | null>(null);
@@ -177,7 +177,7 @@ function History() {
         <li key={firing.serial} data-state={firing.state}>
           <time>{localTime(firing.due)}</time>
           <span dir="auto">
-            {stateWords(firing)}
+            {runWords(firing)}
             {firing.count > 1 && ` × ${firing.count}`}
             {firing.told && <small class="fine">{say(firing.told)}</small>}
             {firing.reason !== null && <small class="fine">{firing.reason}</small>}
@@ -186,19 +186,4 @@ function History() {
       ))}
     </ol>
   );
-}
-
-function stateWords(firing: Firing): string {
-  switch (firing.state) {
-    case "begun":
-      return t("orders.begun");
-    case "given":
-      return t("orders.given");
-    case "ended":
-      return t("orders.done");
-    case "missed":
-      return t("orders.missed");
-    case "quiet":
-      return t("orders.left_out");
-  }
 }

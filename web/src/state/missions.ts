@@ -1,11 +1,13 @@
 /** Keep the list of missions, the questions asked of it, and the one that is looked at. */
 import { signal } from "@preact/signals";
-import { call } from "../net/api";
+import { call, fetchMissionPage, RECORDED_MS } from "../net/api";
+import { language } from "../i18n";
+import { attempt } from "./acts";
 import type { Mission, MissionPage, MissionRow, Track } from "../wire/missions";
 
 export const STATES = ["succeeded", "failed", "cancelled", "refused", "paused", "running"] as const;
 const PAGE = 50;
-const TRACK_MS = 25_000; // the black box is read by a process
+const SAVED_MS = 60_000; // some browsers ask first where to save
 
 export type Wanted = { readonly day: string; readonly state: string; readonly search: string };
 
@@ -56,9 +58,22 @@ export async function look(id: string | null): Promise<void> {
   try {
     const mission = (await call("GET", path)) as Mission;
     shown.value = mission;
-    const way = (await call("GET", `${path}/track`, undefined, {}, TRACK_MS)) as Track;
+    const way = (await call("GET", `${path}/track`, undefined, {}, RECORDED_MS)) as Track;
     if (shown.peek() === mission) track.value = way;
   } catch {
     failed.value = true;
   }
+}
+
+/** Save a mission as one HTML file, which needs no network. */
+export function share(id: string): Promise<boolean> {
+  return attempt(async () => {
+    const address = URL.createObjectURL(await fetchMissionPage(id, language.peek()));
+    const link = document.createElement("a");
+    link.href = address;
+    link.download = `pons-${id}.html`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(address), SAVED_MS);
+    return undefined;
+  });
 }

@@ -1,7 +1,16 @@
 /** Hold what a person points at on the map, and do what they choose to do with it. */
 import { computed, effect, signal } from "@preact/signals";
-import { language, t } from "../i18n";
-import { flawOf, type Outline, rounded, timeToGo, withTrail } from "../map/outline";
+import { language, say, t } from "../i18n";
+import type { Grip } from "../map/gestures";
+import {
+  cornerAt,
+  flawOf,
+  type Outline,
+  rounded,
+  withCorner,
+  withCornerBetween,
+  withTrail,
+} from "../map/outline";
 import type { Point } from "../map/resolve";
 import {
   checkMarks,
@@ -12,9 +21,11 @@ import {
   type Marks,
   putMarks,
 } from "../net/marks";
+import { movePlace } from "../net/api";
 import { proveGoal, proveText } from "../net/proof";
+import type { Place } from "../wire/types";
 import { attempt, tell } from "./acts";
-import { goals, grid, status } from "./store";
+import { grid, status } from "./store";
 
 /** The point whose menu is open. */
 export const menu = signal<Point | null>(null);
@@ -24,10 +35,18 @@ export const facing = signal<Point | null>(null);
 export const crosshair = signal<Point | null>(null);
 /** Points to be driven to in a row. */
 export const row = signal<readonly GoalPoint[]>([]);
-export type Drawn = { readonly kind: "keep_out" | "slow"; readonly corners: Outline };
+export type Drawn = {
+  readonly kind: "keep_out" | "slow";
+  readonly corners: Outline;
+  /** The outline in force that this one is to take the place of; it stays in force until then. */
+  readonly insteadOf?: Outline;
+};
 /** The outline that is being drawn. */
 export const drawn = signal<Drawn | null>(null);
 export const slowMps = signal(0.2);
+/** A place that is being moved, and where to. */
+export type Moving = { readonly place: Place; readonly to: Point };
+export const moving = signal<Moving | null>(null);
 export const marking = signal<Marking | null>(null);
 export const saving = signal(false);
 /** Where the robot was since this page was opened. */
@@ -37,18 +56,11 @@ export const trail = signal<Outline>([]);
 export const pace = signal(0);
 const PACE_SHARE = 0.05; // of each status: a few seconds count
 
-/** What is left of the step that drives now: metres, and seconds at the speed of late. */
-export const toGo = computed(() => {
-  const running = goals.value.find((goal) => goal.state === "running");
-  const left = running?.plan?.steps.find((step) => step.state === "running")?.left_m ?? null;
-  return left === null ? null : { left, seconds: timeToGo(left, pace.value) };
-});
-
 export const marksShown = computed(() => marking.value?.marks ?? null);
 
 /** Let no choice on the map stay open. */
 export function closeAll(): void {
-  menu.value = facing.value = null;
+  menu.value = facing.value = moving.value = null;
 }
 
 /** Keep the marks as the planner has them, and the trail; return what ends it. */
@@ -106,9 +118,29 @@ export function beginOutline(kind: Drawn["kind"], { x, y }: Point): void {
   closeAll();
 }
 
-export function addCorner({ x, y }: Point): void {
+export function addCorner(point: Point): void {
   const now = drawn.value;
-  if (now) drawn.value = { ...now, corners: [...now.corners, rounded([x, y])] };
+  if (!now) return;
+  const corners = now.insteadOf
+    ? withCornerBetween(now.corners, point)
+    : [...now.corners, rounded([point.x, point.y])];
+  drawn.value = { ...now, corners };
+}
+
+/** Return what drags the corner near a point, if an outline is being drawn and has one there. */
+export function gripCorner(point: Point, withinM: number): Grip | null {
+  const before = drawn.value;
+  const index = before && cornerAt(before.corners, point, withinM);
+  if (before === null || index === null) return null;
+  const move = (to: Point): void => {
+    drawn.value = { ...before, corners: withCorner(before.corners, index, to) };
+  };
+  return { move, drop: () => undefined, cancel: () => (drawn.value = before) };
+}
+
+/** Move the corner that is nearest to a point there. */
+export function bringCorner(point: Point): void {
+  gripCorner(point, Number.POSITIVE_INFINITY)?.move(point);
 }
 
 export function undoCorner(): void {
@@ -123,38 +155,77 @@ const nothing = (): Marks | null => {
   return map ? { version: 1, map_id: map, keep_outs: [], speed_zones: [] } : null;
 };
 
+/** Return the marks with an outline that was drawn, in place of the one that it changes. */
+export function withDrawn(before: Marks, now: Drawn, speedMps: number): Marks {
+  const others = (outline: Outline): boolean =>
+    JSON.stringify(outline) !== JSON.stringify(now.insteadOf);
+  if (now.kind === "keep_out")
+    return { ...before, keep_outs: [...before.keep_outs.filter(others), now.corners] };
+  const zone = { polygon: now.corners, max_speed_mps: speedMps };
+  const zones = before.speed_zones.filter(({ polygon }) => others(polygon));
+  return { ...before, speed_zones: [...zones, zone] };
+}
+
 /** Put the outline that was drawn in force. */
 export async function saveOutline(): Promise<void> {
   const now = drawn.value;
   const before = marksShown.value ?? nothing();
   if (!now || !before || flawOf(now.corners) !== null) return;
-  const polygon = now.corners;
-  const marks: Marks =
-    now.kind === "keep_out"
-      ? { ...before, keep_outs: [...before.keep_outs, polygon] }
-      : {
-          ...before,
-          speed_zones: [...before.speed_zones, { polygon, max_speed_mps: slowMps.value }],
-        };
-  if (await save(marks)) {
+  if (await save(withDrawn(before, now, slowMps.value))) {
     drawn.value = null;
     tell(t("marks.saved"));
   }
 }
 
-/** Delete a mark; `again` takes its outline up to be drawn otherwise. */
-export async function deleteMark(kind: Drawn["kind"], index: number, again = false): Promise<void> {
+/** Take a mark's outline up to be changed; it stays in force until the other is saved. */
+export function changeMark(kind: Drawn["kind"], index: number): void {
+  const now = marksShown.value;
+  const zone = now?.speed_zones[index];
+  const corners = kind === "keep_out" ? now?.keep_outs[index] : zone?.polygon;
+  if (!corners) return;
+  closeAll();
+  if (kind === "slow" && zone) slowMps.value = zone.max_speed_mps;
+  drawn.value = { kind, corners, insteadOf: corners };
+}
+
+export async function deleteMark(kind: Drawn["kind"], index: number): Promise<void> {
   const now = marksShown.value;
   if (!now) return;
   const others = <T>(list: readonly T[]): readonly T[] => list.filter((_, at) => at !== index);
-  const corners = kind === "keep_out" ? now.keep_outs[index] : now.speed_zones[index]?.polygon;
   const marks: Marks =
     kind === "keep_out"
       ? { ...now, keep_outs: others(now.keep_outs) }
       : { ...now, speed_zones: others(now.speed_zones) };
-  if (!(await save(marks))) return;
-  if (again && corners) drawn.value = { kind, corners };
-  else tell(t("marks.deleted"));
+  if (await save(marks)) tell(t("marks.deleted"));
+}
+
+/** Return what drags a place; let go, it is taught there, and refused it stays where it was. */
+export function gripPlace(place: Place): Grip {
+  const drag = (to: Point): void => {
+    moving.value = { place, to };
+  };
+  return {
+    move: drag,
+    drop: (to) => {
+      drag(to);
+      void dropPlace();
+    },
+    cancel: closeAll,
+  };
+}
+
+/** Teach the place that is being moved where it was brought; what refuses it says why. */
+export async function dropPlace(): Promise<void> {
+  const now = moving.value;
+  if (!now) return;
+  const [x, y] = rounded([now.to.x, now.to.y]);
+  const pose = { ...now.place.pose, x_m: x, y_m: y };
+  const went = await attempt(async () => {
+    await movePlace(now.place, pose);
+    return undefined;
+  });
+  if (went) tell(t("places.moved", { name: say(now.place.name) }));
+  if (moving.value?.place === now.place) moving.value = null;
 }
 
 async function save(marks: Marks): Promise<boolean> {

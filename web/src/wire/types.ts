@@ -544,6 +544,14 @@ export type Firing = {
   readonly told: Bilingual | null;
 };
 
+/** One run of a standing order, as the conversation tells it. */
+export type OrderRun = Firing & {
+  readonly order: string;
+  readonly text: string;
+  readonly goal: string | null;
+  readonly at: string;
+};
+
 export type StandingOrders = {
   readonly timezone: string;
   readonly quiet: string | null;
