@@ -14,17 +14,10 @@ PACKAGE = "pons-robot"
 def version_line() -> str:
     """Return the line for a person and a bug report."""
     commit = _commit()
-<<<<<<< HEAD:pons_assets/version.py
     return f"pons {release()}" + (f" ({commit})" if commit else "")
 
 
 def release() -> str:
-=======
-    return f"pons {version()}" + (f" ({commit})" if commit else "")
-
-
-def version() -> str:
->>>>>>> mqtt:pons/version.py
     """Return the version alone."""
     if not IS_INSTALLED:  # a checkout may have been installed at another version
         return str(tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"])

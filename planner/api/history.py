@@ -88,11 +88,8 @@ def routes(services: Services) -> APIRouter:
 
 
 async def _tell(services: Services, goal_id: str) -> ToldGoal:
-    mission, story = await services.history.story(goal_id)
-    try:
-        goal = services.goals.goal(goal_id)  # with its progress, and its place in the queue
-    except UnknownGoal:
-        goal = recorded_goal(mission)
+    _, story = await services.history.story(goal_id)
+    goal = await find_goal(services, goal_id)
     await services.budget.look(goal_id)
     return ToldGoal(goal=goal, story=story, usage=services.budget.usage(goal_id))
 

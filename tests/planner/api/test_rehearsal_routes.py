@@ -11,7 +11,6 @@ from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import client_of
 from tests.planner.api.test_routes import FREE, code
 
-
 JSON = {"content-type": "application/json"}
 
 
