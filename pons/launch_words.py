@@ -76,6 +76,10 @@ SEARCHES = (
     "      机器人正在寻找自己的位置，期间停着不动。请在该网页上点击“机器人在这里……”",
 )
 SET_UP = "set-up: no bridge, nothing drives; try the robot on that page", "设置模式：请在网页上测试"
+PAIR = (
+    "to sign with a telephone instead of typing the key: pons people pair",
+    "用手机签名而不必输入密钥：pons people pair",
+)
 UNREACHED = "not reached yet: dialled until it answers", "尚未连上机器人：会一直重试，网页可用"
 
 

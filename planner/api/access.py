@@ -44,7 +44,7 @@ OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?|/v1/hand/?")
 may one open the socket of a hand on the stick."""
 PEOPLE_PATH = "/v1/people"
 """The owner's to change: who could add people could add a way in that outlives a removal."""
-SETTINGS_PATH = "/v1/settings"
+OWNERS_PATHS = ("/v1/settings", "/v1/wizard")
 """The owner's to see and to change: an address there is where people's words and a key go."""
 
 
@@ -103,7 +103,7 @@ class Access:
         token = _token_of(headers, websocket=websocket)
         role = self._role(token)
         changes = method not in SAFE_METHODS
-        owners = path.startswith(SETTINGS_PATH) or (changes and path.startswith(PEOPLE_PATH))
+        owners = path.startswith(OWNERS_PATHS) or (changes and path.startswith(PEOPLE_PATH))
         if owners and not self._is_owner(token):
             raise AccessError(403, "owner_needed", f"{method} {path[:80]} is the owner's alone")
         if role is not Role.OPERATOR and OPERATORS_READING.fullmatch(path):

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from planner.plan import Goal, GoToPose, Language
     from planner.rehearsal import Rehearser
     from planner.settings_desk import SettingsDesk
+    from planner.setup_wizard import SetupWizard
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from wire import (
@@ -242,6 +243,12 @@ class Services(Protocol):
 
     @property
     def restart(self) -> SetupSwitch: ...
+
+    @property
+    def take_robot(self) -> SetupSwitch: ...
+
+    @property
+    def wizard(self) -> SetupWizard: ...
 
     @property
     def settings_desk(self) -> SettingsDesk: ...

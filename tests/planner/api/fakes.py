@@ -35,6 +35,7 @@ from planner.rehearsal import Rehearser
 from planner.settings import Settings
 from planner.settings_desk import SettingsDesk
 from planner.setup_switch import ProcessSwitch
+from planner.setup_wizard import SetupWizard
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.state_database import StateDatabase
 from planner.voice import Recognition, Sound, StopListener, VoiceAbilities, VoiceFailure
@@ -374,6 +375,7 @@ class FakeServices:
         self.robot = FakeRobot(status)
         self.setup = ProcessSwitch(is_there=True)
         self.restart = ProcessSwitch(is_there=True)
+        self.take_robot = ProcessSwitch(is_there=True)
         self.settings_desk = SettingsDesk(HOME, {}, Settings(), StateDatabase(HOME))
         self.ears = FakeEars()
         self.speaker = FakeSpeech()
@@ -385,6 +387,7 @@ class FakeServices:
         self.brain: Brain = OfflineBrain()
         self.site = two_room()
         self.memory = KnownPlaces(self.site)
+        self.wizard = SetupWizard(HOME, RobotDescription(), self.site.folder, lambda: self.memory)
         self.recollection = Recollection(MemoryStore(StateDatabase(HOME)))
         self.people = People(StateDatabase(HOME))
         self.fences = FenceProposals.in_home(HOME)

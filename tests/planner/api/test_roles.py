@@ -21,7 +21,9 @@ OPERATORS = frozenset({"/v1/goals/x/replies"})
 STOPPING = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 OWNERS = ("/v1/people", "/v1/people/x")
 """What only the token that the planner was started with may change."""
-OWNERS_OWN = ("/v1/settings", "/v1/settings/model/test", "/v1/settings/restart")
+OWNERS_OWN = ("/v1/settings", "/v1/settings/model/test", "/v1/settings/restart",
+              "/v1/wizard", "/v1/wizard/look", "/v1/wizard/preset", "/v1/wizard/robot",
+              "/v1/wizard/take")  # fmt: skip
 """What others may not even look at."""
 TOKENS = {
     "operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": "",
