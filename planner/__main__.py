@@ -44,7 +44,13 @@ def main(arguments: list[str] | None = None) -> int:
         authority = tls.authority(given.tls_ca)
         access = _access(given.host, speaks_tls=secure is not None)
         planner = Planner(
-            PlannerPaths(given.home, given.robot, given.site, may_set_up=given.may_set_up)
+            PlannerPaths(
+                given.home,
+                given.robot,
+                given.site,
+                may_set_up=given.may_set_up,
+                may_take_robot=given.may_take_robot,
+            )
         )
     except ConfigError as wrong:  # a SiteError is one
         print(f"planner: {wrong}", file=sys.stderr)
@@ -73,7 +79,7 @@ def main(arguments: list[str] | None = None) -> int:
     if planner.detector.refused is not None:
         print(f"planner: {planner.detector.refused}", file=sys.stderr)
         return REFUSED
-    if planner.setup.is_thrown:
+    if planner.leaves_robot:
         return EXIT_SET_UP
     return 0 if server.started else 1
 
@@ -83,7 +89,7 @@ def _end(planner: Planner, number: int, _: FrameType | None) -> None:
 
     The server shuts down on a signal of its own, and then raises it again here.
     """
-    if planner.detector.refused is None and not planner.setup.is_thrown:
+    if planner.detector.refused is None and not planner.leaves_robot:
         signal.signal(number, signal.SIG_DFL)
         signal.raise_signal(number)
 
@@ -103,6 +109,10 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--may-set-up", action="store_true", help="end with 4 when an operator asks for set-up"
     )
+    parser.add_argument(
+        "--may-take-robot", action="store_true",
+        help="end with 4 when the owner asks for the robot.toml that a page has written",
+    )  # fmt: skip
     return parser.parse_args(arguments)
 
 

@@ -35,6 +35,7 @@ from planner.robot_service import LinkedRobot
 from planner.settings import list_keys, load_settings
 from planner.settings_desk import SettingsDesk
 from planner.setup_switch import ProcessSwitch
+from planner.setup_wizard import SetupWizard
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.site.marks import marks_path
 from planner.skill_files.folder import SkillFolder
@@ -74,10 +75,14 @@ class PlannerPaths:
     site: Path
     may_set_up: bool = False
     """Who started this planner starts set-up in its place when it asks for that."""
+    may_take_robot: bool = False
+    """Who started this planner changes over to the home's own robot.toml when it asks for that."""
 
 
 class Planner:
     """Hold the parts of one planner; the services behind its routes."""
+
+    _warming: asyncio.Task[None] | None = None
 
     def __init__(self, where: PlannerPaths) -> None:
         """Load everything and take the planner's place in the home folder.
@@ -86,7 +91,8 @@ class Planner:
             ConfigError, SiteError: robot.toml, settings.toml or the site is wrong, or a planner
                 runs here.
         """
-        self.setup, self.restart = map(ProcessSwitch, (where.may_set_up, is_supervised()))
+        can = (where.may_set_up, where.may_take_robot, is_supervised())
+        self.setup, self.take_robot, self.restart = map(ProcessSwitch, can)
         self.settings = load_settings(where.home, os.environ)
         self._home, self._state = where.home, _state_of(where.home)
         self.people = People(self._state)
@@ -118,7 +124,6 @@ class Planner:
         self.robot = LinkedRobot(link, self.description, self._speed_mps)
         self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None
-        self._warming: asyncio.Task[None] | None = None
         worker = self.detector.worker
         self.eyes = eyes_of(
             worker, self.settings.vision, link, self._session,
@@ -140,6 +145,11 @@ class Planner:
         self.goals.loop.bound_search(picture_limits(self.settings), spent_by(self.budget))
 
     @property
+    def leaves_robot(self) -> bool:
+        """Say whether set-up, or another robot, is to take this planner's place."""
+        return self.setup.is_thrown or self.take_robot.is_thrown
+
+    @property
     def _speed_mps(self) -> float:
         """Return the robot's own speed limit, or the owner's below it."""
         return self.settings.limits.lower_speed(self.description.limits.max_speed_mps)
@@ -152,6 +162,11 @@ class Planner:
             robot_mps=self.description.limits.max_speed_mps,
             adopt=lambda saved: self.budget.adopt(saved.budget),
         )  # fmt: skip
+
+    @cached_property
+    def wizard(self) -> SetupWizard:
+        """Lead the owner of an empty home to a robot that knows its rooms."""
+        return SetupWizard(self._home, self.description, self.site.folder, lambda: self.memory)
 
     @cached_property
     def rehearser(self) -> Rehearser:
@@ -346,6 +361,9 @@ async def _end_with(planner: Planner) -> None:
             break
         if planner.restart.is_thrown:
             log.warning("restart: leaving, so that the next start reads the settings again")
+            break
+        if planner.take_robot.is_thrown:
+            log.warning("take_robot: leaving, so that the home's own robot takes this one's place")
             break
         if planner.setup.is_thrown:
             log.warning("set_up: leaving, so that set-up takes the bridge's place")

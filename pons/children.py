@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pons import mqtt
+from pons.launch_checks import CannotStart
 from pons.robot_processes import address_arguments, common_arguments, free_port
 from pons.settings import allowed_hosts
 from pons.supervisor import Child
+from pons_assets import ROBOT_FILE
 
 if TYPE_CHECKING:
     from pons.authority import IssuedCertificate
@@ -30,6 +32,29 @@ def must_set_up(settings: LaunchSettings, robot: RobotDescription) -> bool:
     if not can_set_up(settings, robot) or robot.valid_trial is not None:
         return False
     return not Path(robot.drive.port or "").resolve().is_relative_to("/dev/pts")
+
+
+def begins_in_set_up(settings: LaunchSettings, robot: RobotDescription) -> bool:
+    """Tell whether to begin in set-up.
+
+    Raises:
+        CannotStart: it is asked for, and this robot has none.
+    """
+    if settings.set_up and not can_set_up(settings, robot):
+        raise CannotStart(
+            "setup_needless: set-up tries a base of metal at a serial line; this robot is "
+            f"simulated, a twin's or one of ROS 2 (drive.kind {robot.drive.kind!r})"
+        )
+    return settings.set_up or must_set_up(settings, robot)
+
+
+def may_take_robot(settings: LaunchSettings) -> bool:
+    """Tell whether a robot.toml that the page writes is taken up: where the demo robot stands in.
+
+    A robot that somebody named (PONS_ROBOT, --robot) stays what runs.
+    """
+    plain = settings.metal is None and settings.domain is None and settings.mapping is None
+    return settings.robot == ROBOT_FILE and plain and not settings.twin
 
 
 def children(
@@ -54,6 +79,7 @@ def children(
     wanted = [("bridge", [*common, *at_line])]
     if planner:
         more = ["--may-set-up"] if can_set_up(settings, robot) else []
+        more += ["--may-take-robot"] if may_take_robot(settings) else []
         wanted.append(("planner", [*_planner(settings, common, issued), *more]))
     simulated = robot.drive.virtual or settings.twin
     if simulated:

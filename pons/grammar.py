@@ -219,7 +219,7 @@ def _places(words: Words) -> None:
 
 def _people(words: Words) -> None:
     word = add_command(words, "people")
-    word.add_argument("act", nargs="?", choices=("list", "add", "remove"), default="list")
+    word.add_argument("act", nargs="?", choices=("list", "add", "remove", "pair"), default="list")
     word.add_argument("name", nargs="?", help="whom to add (a name), or to remove (an id)")
     word.add_argument("--role", choices=PEOPLES_ROLES, default="operator")
     word.add_argument("--json", action="store_true", help="as JSON")

@@ -5,8 +5,13 @@ from __future__ import annotations
 import contextlib
 import shutil
 import socket
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from bridge.operator_key import FILE as KEY_FILE
+from pons.key import run as make_key
+from pons.launch_words import PAIR
+from pons.settings import robot_of
 from pons.terminal import pick, speaks_chinese
 from wire import ConfigError, load_robot
 
@@ -76,6 +81,22 @@ def check(settings: LaunchSettings) -> RobotDescription:
     if not free >= MIN_FREE_BYTES:
         raise CannotStart(f"disk_full: {settings.home} has {free} bytes, needs {MIN_FREE_BYTES}")
     return robot
+
+
+def take_robot(settings: LaunchSettings) -> tuple[LaunchSettings, RobotDescription]:
+    """Return what runs from now on: the robot that the page's wizard has written.
+
+    Metal needs an operator's key; nobody may be at the terminal to be asked for it.
+
+    Raises:
+        CannotStart: something is wrong with it.
+    """
+    taken = replace(settings, robot=robot_of("", settings.home))
+    robot = check(taken)
+    if not robot.drive.virtual and not (taken.home / KEY_FILE).exists():
+        make_key(taken)
+        print(f"pons: {pick(*PAIR)}", flush=True)
+    return taken, robot
 
 
 def in_chinese(why: Exception) -> str:

@@ -1,4 +1,4 @@
-"""Let people use the robot: ``pons people [list] | add NAME [--role viewer] | remove ID``.
+"""Let people use the robot: ``pons people [list] | add NAME [--role viewer] | remove ID | pair``.
 
 The token is printed once, as a link for a telephone and as a QR code where a terminal is.
 """
@@ -8,13 +8,32 @@ from __future__ import annotations
 import json
 import sys
 from typing import TYPE_CHECKING, Any
-from urllib.parse import quote
+from urllib.parse import quote, urlencode
 
+from bridge.operator_key import FILE as KEY_FILE
 from pons.http import PlannerDown, PlannerProblem, call, tell_unreached
+from pons.settings import allowed_hosts
+from pons.supervisor import TOKENS
+from pons.terminal import pick
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+PAIRING = (
+    "Who opens this link is the owner: show it to nobody else, and clear the terminal after.",
+    "打开此链接的人就是主人：不要给别人看，用后请清除终端内容。",
+)
+KEY_STAYS = (
+    "Without the operator's key: pages without https take none. Start with `pons up --tls`.",
+    "不含操作员密钥：没有 https 的网页不接受密钥。请用 `pons up --tls` 启动。",
+)
+ONLY_HERE = (
+    "This address is the robot's own computer's. For a telephone: PONS_ALLOWED_HOSTS=NAME pons up "
+    "--tls --host 0.0.0.0, with the computer's name in the network (docs/tls.md).",
+    "这是机器人自己电脑的地址。手机请用：PONS_ALLOWED_HOSTS=名称 pons up --tls --host 0.0.0.0，"
+    "名称为该电脑在网络中的名字（docs/tls.md）。",
+)
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PATH = "/v1/people"
 ROLES = {
@@ -31,6 +50,8 @@ def run(
     settings: LaunchSettings, act: str, name: str | None, *, role: str, as_json: bool = False
 ) -> int:
     """Do one of the acts; 0 done, 2 bad order, 3 refused, 6 nobody answers."""
+    if act == "pair":
+        return pair_owner(settings)
     if act != "list" and name is None:
         print(f"no_name: say whom to {act}", file=sys.stderr)
         return EXIT_USAGE
@@ -77,6 +98,53 @@ def _add(settings: LaunchSettings, name: str, role: str, *, as_json: bool) -> No
     print(f"This link is told once; who has it is {made['name']}:\n{link}")
     if sys.stdout.isatty():
         print(qr_text(link))
+
+
+def pair_owner(settings: LaunchSettings) -> int:
+    """Print the owner's own link: with the operator's token and key, as far as they are set.
+
+    They stand behind the address's #, which no browser sends; a page that came without https takes
+    no key. Nothing is asked of the planner, and nothing new is made.
+    """
+    import os
+
+    key_file = settings.home / KEY_FILE
+    try:
+        key = key_file.read_text("ascii").strip()
+    except FileNotFoundError:
+        key = ""
+    except (OSError, ValueError) as error:
+        print(f"operator_key_unreadable: {key_file}: {error}", file=sys.stderr)
+        return EXIT_REFUSED
+    secrets = {
+        "token": os.environ.get(TOKENS[0], ""),
+        "key": key if may_carry_key(settings) else "",
+    }
+    told = {name: value for name, value in secrets.items() if value}
+    base = _url_from_elsewhere(settings)
+    link = f"{base}/#{urlencode(told)}" if told else base
+    print(pick(*PAIRING))
+    print(link)
+    if key and "key" not in told:
+        print(pick(*KEY_STAYS))
+    if base == settings.url and settings.host_to_dial in LOOPBACK:
+        print(pick(*ONLY_HERE))
+    if sys.stdout.isatty():
+        print(qr_text(link))
+    return EXIT_DONE
+
+
+def _url_from_elsewhere(settings: LaunchSettings) -> str:
+    """Return the address that a telephone opens: by a name that the planner answers to."""
+    named = sorted(allowed_hosts())
+    if settings.host not in ("0.0.0.0", "::") or not named:
+        return settings.url
+    return f"{'https' if settings.tls else 'http'}://{named[0]}:{settings.port}"
+
+
+def may_carry_key(settings: LaunchSettings) -> bool:
+    """Tell whether a page under this robot's address may take the operator's key."""
+    return settings.tls or settings.host in LOOPBACK
 
 
 def qr_text(text: str) -> str:

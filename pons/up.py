@@ -16,12 +16,20 @@ import time
 from math import inf
 from typing import TYPE_CHECKING
 
-from pons.children import can_set_up, children, must_set_up, set_up_children
+from pons.children import begins_in_set_up, children, may_take_robot, set_up_children
 from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
 from pons.key import offer_key
-from pons.launch_checks import CannotStart, ChildRefusal, check, check_port, in_chinese, site_flaw
+from pons.launch_checks import (
+    CannotStart,
+    ChildRefusal,
+    check,
+    check_port,
+    in_chinese,
+    site_flaw,
+    take_robot,
+)
 from pons.launch_words import (
     NO_LIDAR,
     SEARCHES,
@@ -271,8 +279,12 @@ def run(settings: LaunchSettings, *, planner: bool = True) -> int:
                 settings, words = keep_domain(settings, robot)
                 say(words)
             issued = _certify(settings) if planner and settings.tls else None
-            with RunningNote(settings, robot.id) as note:
-                return _supervise(settings, robot, note, planner=planner, issued=issued)
+            while True:
+                with RunningNote(settings, robot.id) as note:
+                    status = _supervise(settings, robot, note, planner=planner, issued=issued)
+                if status is not None:
+                    return status
+                settings, robot = take_robot(settings)
     except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:
         told = f"pons up: {why}"
         if isinstance(why, ChildRefusal):
@@ -296,9 +308,10 @@ def _supervise(
     *,
     planner: bool,
     issued: IssuedCertificate | None,
-) -> int:
+) -> int | None:
+    """Return the exit status; None where the home's own robot is to be taken up."""
     where = settings.site.name if settings.canvas is None else f"a home to map: {settings.mapping}"
-    set_up = planner and _begins_in_set_up(settings, robot)
+    set_up = planner and begins_in_set_up(settings, robot)
     changed = False
     while True:
         supervisor = Supervisor(
@@ -317,22 +330,10 @@ def _supervise(
         status = supervisor.run()
         if not supervisor.changes:
             return status
+        if may_take_robot(settings):
+            return None
         set_up, changed = not set_up, True
         robot = check(settings)  # a trial has written to it
-
-
-def _begins_in_set_up(settings: LaunchSettings, robot: RobotDescription) -> bool:
-    """Tell whether to begin in set-up.
-
-    Raises:
-        CannotStart: it is asked for, and this robot has none.
-    """
-    if settings.set_up and not can_set_up(settings, robot):
-        raise CannotStart(
-            "setup_needless: set-up tries a base of metal at a serial line; this robot is "
-            f"simulated, a twin's or one of ROS 2 (drive.kind {robot.drive.kind!r})"
-        )
-    return settings.set_up or must_set_up(settings, robot)
 
 
 def _handler(supervisor: Supervisor) -> _Handler:

@@ -64,7 +64,7 @@ MAY: dict[Role, tuple[tuple[frozenset[str], re.Pattern[str]], ...]] = {
 Everybody with a token may stop (``STOPPING_PATHS``)."""
 PEOPLE_PATH = "/v1/people"
 """The owner's to change: who could add people could add a way in that outlives a removal."""
-SETTINGS_PATH = "/v1/settings"
+OWNERS_PATHS = ("/v1/settings", "/v1/wizard")
 """The owner's to see and to change: an address there is where people's words and a key go."""
 
 
@@ -125,7 +125,7 @@ class Access:
         if not _may(role, method, path):
             raise AccessError(403, "person_needed", f"{method} {path[:80]} is not the {role}'s")
         changes = method not in SAFE_METHODS
-        owners = path.startswith(SETTINGS_PATH) or (changes and path.startswith(PEOPLE_PATH))
+        owners = path.startswith(OWNERS_PATHS) or (changes and path.startswith(PEOPLE_PATH))
         if owners and not self._is_owner(token):
             raise AccessError(403, "owner_needed", f"{method} {path[:80]} is the owner's alone")
         if role is not Role.OPERATOR and OPERATORS_READING.fullmatch(path):

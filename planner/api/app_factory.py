@@ -36,6 +36,7 @@ from planner.api import (
     usage,
     voice,
     websocket,
+    wizard,
 )
 from planner.api.interfaces import Services
 from planner.api.middleware import Guard
@@ -51,9 +52,9 @@ if TYPE_CHECKING:
     from planner.api.access import Access
 
 _PARTS = (
-    goals, rehearsals, voice, live_voice, operator, hand, setup, settings, robot, capabilities,
-    orders, places, localization, objects, memory, pictures, camera, fence, marks, people, skills,
-    usage, history, health, websocket,
+    goals, rehearsals, voice, live_voice, operator, hand, setup, settings, wizard, robot,
+    capabilities, orders, places, localization, objects, memory, pictures, camera, fence, marks,
+    people, skills, usage, history, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from planner.rehearsal import Rehearser
     from planner.rehearsal_drive import RehearsalDrives
     from planner.settings_desk import SettingsDesk
+    from planner.setup_wizard import SetupWizard
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.skill_files.folder import SkillFolder
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
@@ -250,6 +251,12 @@ class Services(Protocol):
 
     @property
     def restart(self) -> SetupSwitch: ...
+
+    @property
+    def take_robot(self) -> SetupSwitch: ...
+
+    @property
+    def wizard(self) -> SetupWizard: ...
 
     @property
     def settings_desk(self) -> SettingsDesk: ...

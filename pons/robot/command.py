@@ -82,6 +82,8 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("name", metavar="NAME", help="the robot's id: small letters, digits, _ and -")
     made.add_argument("--from", dest="preset", required=True, metavar="PRESET",
                       help="as `pons robot presets` lists it")  # fmt: skip
+    made.add_argument("--set", dest="values", action="append", default=[], metavar="KEY=VALUE",
+                      help="what was measured or found: base.wheel_radius_m=0.033")  # fmt: skip
     what = "name each serial port and what answers on it, moving nothing"
     find = act("find", what, "pons robot find --port /dev/ttyUSB0")
     find.add_argument(
@@ -125,7 +127,7 @@ def run(settings: LaunchSettings, words: list[str]) -> int:
 
         if said.act == "presets":
             return presets.list_presets(as_json=said.json)
-        return presets.write_new(settings, said.name, said.preset)
+        return presets.write_new(settings, said.name, said.preset, said.values)
     if said.act in ("try", "mount") and said.robot is not None:
         settings = replace(settings, robot=robot_of(str(said.robot), settings.home))
     if said.act == "try":

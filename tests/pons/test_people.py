@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import cv2
@@ -90,3 +91,32 @@ def test_the_qr_code_on_a_terminal_is_read_back() -> None:
         rows += [[top for top, _ in pairs], [bottom for _, bottom in pairs]]
     picture = np.kron(np.array(rows, np.uint8) * 255, np.ones((8, 8), np.uint8))
     assert cv2.QRCodeDetector().detectAndDecode(picture)[0] == link
+
+
+PAIRS = {"PONS_HOST": "127.0.0.1", "PONS_TLS": "0", "PONS_OPERATOR_TOKEN": "o" * 20}
+
+
+@pytest.mark.parametrize(
+    ("more", "link"),
+    [
+        ({}, "http://127.0.0.1:8420/#token=OOO&key=KEY"),
+        ({"PONS_OPERATOR_TOKEN": ""}, "http://127.0.0.1:8420/#key=KEY"),
+        ({"PONS_HOST": "192.0.2.7"}, "http://192.0.2.7:8420/#token=OOO"),
+        ({"PONS_HOST": "192.0.2.7", "PONS_TLS": "1"}, "https://192.0.2.7:8420/#token=OOO&key=KEY"),
+        (
+            {"PONS_HOST": "0.0.0.0", "PONS_TLS": "1", "PONS_ALLOWED_HOSTS": "rover.local"},
+            "https://rover.local:8420/#token=OOO&key=KEY",
+        ),
+    ],
+)
+def test_the_owners_link_carries_the_key_where_a_page_takes_it(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path,
+    more: dict[str, str], link: str,
+) -> None:  # fmt: skip
+    for name, value in {**PAIRS, "PONS_PORT": "8420", "PONS_HOME": str(tmp_path), **more}.items():
+        monkeypatch.setenv(name, value)
+    (tmp_path / "operator.key").write_text("k" * 64 + "\n")
+    assert people.run(load(), "pair", None, role="operator") == 0
+    out = capsys.readouterr().out
+    assert link.replace("OOO", "o" * 20).replace("KEY", "k" * 64) in out.splitlines()
+    assert ("without https" in out) is ("KEY" not in link)

@@ -22,6 +22,7 @@ import { startCamera } from "./eyes/Camera";
 import { startLanguage } from "./i18n";
 import { fetchGrid, fetchObjects, fetchPlaces, fetchVoice } from "./net/api";
 import { EventSocket } from "./net/socket";
+import { setKey } from "./net/proof";
 import { startToken, tokenNeeded } from "./net/token";
 import {
   began,
@@ -64,7 +65,7 @@ const socket = new EventSocket({
 });
 startStopper((message) => socket.send(message), hush);
 listen(stop);
-startToken();
+setKey(startToken());
 startLanguage();
 startTheme();
 startVisible();

@@ -36,6 +36,7 @@ from planner.rehearsal_drive import RehearsalDrives
 from planner.settings import Settings
 from planner.settings_desk import SettingsDesk
 from planner.setup_switch import ProcessSwitch
+from planner.setup_wizard import SetupWizard
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.skill_files.folder import SkillFolder
 from planner.state_database import StateDatabase
@@ -380,6 +381,7 @@ class FakeServices:
         self.robot = FakeRobot(status)
         self.setup = ProcessSwitch(is_there=True)
         self.restart = ProcessSwitch(is_there=True)
+        self.take_robot = ProcessSwitch(is_there=True)
         self.settings_desk = SettingsDesk(HOME, {}, Settings(), StateDatabase(HOME))
         self.ears = FakeEars()
         self.speaker = FakeSpeech()
@@ -391,6 +393,7 @@ class FakeServices:
         self.brain: Brain = OfflineBrain()
         self.site = two_room()
         self.memory = KnownPlaces(self.site)
+        self.wizard = SetupWizard(HOME, RobotDescription(), self.site.folder, lambda: self.memory)
         self.recollection = Recollection(MemoryStore(StateDatabase(HOME)))
         self.people = People(StateDatabase(HOME))
         self.fences = FenceProposals.in_home(HOME)

@@ -37,7 +37,9 @@ DISPATCHERS = {
     "GET": [*AGENTS["GET"], "/v1/fence", "/v1/marks", "/v1/obstacles", "/v1/voice"],
 }  # fmt: skip
 LISTED = {"Claude": AGENTS, "Desk": DISPATCHERS}
-OWNERS_OWN = ("/v1/settings", "/v1/settings/model/test", "/v1/settings/restart")
+OWNERS_OWN = ("/v1/settings", "/v1/settings/model/test", "/v1/settings/restart",
+              "/v1/wizard", "/v1/wizard/look", "/v1/wizard/preset", "/v1/wizard/robot",
+              "/v1/wizard/take")  # fmt: skip
 """What others may not even look at."""
 TOKENS = {
     "operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": "",

@@ -10,14 +10,14 @@ const slot = (): string => `pons.token ${location.pathname}`;
 export const tokenNeeded = signal(false);
 let token = "";
 
-export function startToken(): void {
-  const given = new URLSearchParams(location.hash.slice(1)).get("token");
-  if (given) {
-    setToken(given);
-    window.history.replaceState(null, "", location.pathname + location.search);
-  } else {
-    token = sessionStorage.getItem(slot()) ?? "";
-  }
+/** Take what the address's fragment brings, and out of the address; return the operator's key, if it came. */
+export function startToken(): string {
+  const brought = new URLSearchParams(location.hash.slice(1));
+  const [given, key] = [brought.get("token"), brought.get("key")];
+  if (given) setToken(given);
+  else token = sessionStorage.getItem(slot()) ?? "";
+  if (given || key) window.history.replaceState(null, "", location.pathname + location.search);
+  return key ?? "";
 }
 
 export function setToken(given: string): void {

@@ -172,8 +172,9 @@ function SecretBox({ field, common, take }: SecretProps) {
     <span class="secret">
       <input
         {...common}
-        type="password"
-        autocomplete="new-password"
+        type="text"
+        autocomplete="off"
+        autocapitalize="off"
         spellcheck={false}
         maxLength={2000}
         placeholder={t(field.is_set && typed !== null ? "set.secret_set" : "set.secret_unset")}

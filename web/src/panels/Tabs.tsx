@@ -74,6 +74,7 @@ export function Tabs() {
             id={`tab-${id}`}
             aria-selected={shown.value === id}
             aria-controls="view"
+            aria-label={id === "settings" ? t("tab.settings") : undefined}
             tabIndex={shown.value === id ? 0 : -1}
             onClick={() => (chosen.value = id)}
             onKeyDown={(event) => {
@@ -81,7 +82,7 @@ export function Tabs() {
               if (event.key === "ArrowLeft") step(-1);
             }}
           >
-            {t(`tab.${id}`)}
+            {id === "settings" ? <Gear /> : t(`tab.${id}`)}
           </button>
         ))}
       </div>
@@ -89,5 +90,18 @@ export function Tabs() {
         <View />
       </div>
     </>
+  );
+}
+
+/** Settings are looked for by this sign everywhere, and seven words fill the row. */
+function Gear() {
+  return (
+    <svg class="gear" viewBox="-12 -12 24 24" aria-hidden="true">
+      {[0, 45, 90, 135].map((turn) => (
+        <path key={turn} transform={`rotate(${turn})`} d="M-2 -10h4v20h-4z" />
+      ))}
+      <circle r="7.4" />
+      <circle r="3" class="hole" />
+    </svg>
   );
 }
