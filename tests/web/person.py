@@ -29,18 +29,21 @@ def ended(page: Page, goal_id: str, state: str = "succeeded") -> str:
     return line.inner_text()
 
 
-def click_at(page: Page, x_m: float, y_m: float) -> None:
-    """Click a point of the map given in metres."""
-    page.locator("#map").scroll_into_view_if_needed()
+def pixel_of(page: Page, x_m: float, y_m: float) -> tuple[float, float]:
+    """Return where a point given in metres lies in the window; the map is not turned."""
     box = page.locator(".drawing").bounding_box()
     view = page.locator(".drawing").get_attribute("viewBox")
     assert box is not None
     assert view is not None
     left, top, wide, high = map(float, view.split())
-    page.mouse.click(
-        box["x"] + (x_m - left) / wide * box["width"],
-        box["y"] + (-y_m - top) / high * box["height"],
-    )
+    across, down = (x_m - left) / wide * box["width"], (-y_m - top) / high * box["height"]
+    return box["x"] + across, box["y"] + down
+
+
+def click_at(page: Page, x_m: float, y_m: float) -> None:
+    """Click a point of the map given in metres."""
+    page.locator("#map").scroll_into_view_if_needed()
+    page.mouse.click(*pixel_of(page, x_m, y_m))
 
 
 def note_presses(page: Page) -> None:
