@@ -261,6 +261,8 @@ export const en = {
   "orders.keep": "Keep it",
   "orders.how":
     "For example: “every evening at eight go to the kitchen and look”, “when somebody comes in, say hello”, “remind me in 20 minutes”.",
+  "orders.low_home": "On a low battery (under 20 %), go home",
+  "orders.low_home_said": "when the battery is low, go home",
   "orders.kept": "Standing orders",
   "orders.none": "There are none yet.",
   "orders.zone": "Times of {zone}.",

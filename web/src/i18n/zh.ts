@@ -252,6 +252,8 @@ export const zh: Record<Key, string> = {
   "orders.sentence": "做什么，什么时候做",
   "orders.keep": "记下来",
   "orders.how": "例如：“每天晚上八点去厨房看看”、“有人进来就说你好”、“二十分钟后提醒我”。",
+  "orders.low_home": "电量低于 20% 时回家",
+  "orders.low_home_said": "电量低的时候回家",
   "orders.kept": "现有的定时任务",
   "orders.none": "还没有。",
   "orders.zone": "时间按 {zone}。",
