@@ -14,6 +14,7 @@ import "./styles/talk.css";
 import "./styles/hand.css";
 import "./styles/rehearsal.css";
 import "./styles/settings.css";
+import "./styles/driven.css";
 import "./styles/stop.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";
@@ -40,6 +41,7 @@ import {
   wantsSnapshot,
 } from "./state/store";
 import { startTheme } from "./state/theme";
+import { startDrives } from "./rehearse/drive";
 import { startRehearsals } from "./rehearse/rehearsal";
 import { startVisible } from "./state/visible";
 import { listen } from "./stop/keys";
@@ -73,6 +75,7 @@ startAloud();
 startCamera();
 startClock();
 startRehearsals();
+startDrives();
 effect(() => {
   if (wantsSnapshot.value) socket.send({ snapshot: true });
 });

@@ -1,5 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { figuresOf } from "../src/rehearse/RehearsalPanel";
+import { outcomeOf, sumOf } from "../src/rehearse/DrivenPart";
+import type { DrivenRehearsal, DrivenStep } from "../src/rehearse/drive";
 import type { RehearsedStep } from "../src/rehearse/rehearsal";
 
 const step: RehearsedStep = {
@@ -38,5 +40,53 @@ describe("a rehearsed step", () => {
     const message = { en: "I found no way to the kitchen.", zh: "" };
     expect(figuresOf({ ...step, does: "shut", message })).toBe(message.en);
     expect(figuresOf({ ...step, does: "shut" })).toBe("no way");
+  });
+});
+
+const came: DrivenStep = {
+  index: 0,
+  kind: "go_to",
+  name: step.name,
+  branch: false,
+  outcome: "succeeded",
+  length_m: 11.7,
+  seconds: 28.2,
+  nearest_m: 0.19,
+  contacts: 0,
+  rows: [],
+  code: null,
+  message: null,
+};
+const whole: DrivenRehearsal = {
+  id: "a",
+  state: "done",
+  shown: { steps: [step], length_m: 11.6, seconds: 27.3, narrowest_m: 0.84, is_whole: true },
+  driven: { steps: [came], trail: [], length_m: 11.7, seconds: 28.2, contacts: 0 },
+  left_out: ["localization"],
+  times_faster: 12.2,
+  message: null,
+};
+
+describe("a step that was driven in the simulator", () => {
+  it("tells how it ended, its figures and the nearest thing", () => {
+    expect(outcomeOf(came)).toBe("done, 11.7 m, 28 s, 0.19 m from the nearest thing");
+  });
+
+  it("tells what it touched and what held it back", () => {
+    const told = outcomeOf({ ...came, outcome: "stuck", contacts: 2, rows: ["BUMP"] });
+    expect(told).toContain("gets stuck");
+    expect(told).toContain("touched something 2 times");
+    expect(told).toContain("held back by");
+  });
+
+  it("says why it does not go, in its own words", () => {
+    const message = { en: "I found no way to the kitchen.", zh: "" };
+    expect(outcomeOf({ ...came, outcome: "failed", message })).toContain(message.en);
+    expect(outcomeOf({ ...came, outcome: "left_out" })).not.toContain(" m");
+  });
+
+  it("is summed up beside what was foretold", () => {
+    expect(sumOf(whole)).toContain("Driven 11.7 m, 28 s; foretold 11.6 m, 27 s. 12 x faster");
+    expect(sumOf({ ...whole, state: "running" })).toContain("So far");
   });
 });

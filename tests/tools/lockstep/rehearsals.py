@@ -7,9 +7,12 @@ from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
 
+from lockstep.rehearsal_drive import RehearsalDrive
+from planner.driven_rehearsal import DriveRequest, steps_to_drive
 from planner.rehearsal import Rehearsal, Rehearser
 
 if TYPE_CHECKING:
+    from planner.driven_rehearsal import DrivenPlan
     from planner.navigation import RouteRequest, RouteResult
     from planner.navigation.obstacle_memory import ObstacleMemory
     from planner.navigation.router import Router
@@ -47,3 +50,28 @@ def drive(world: LockstepWorld, text: str, limit_s: float = 300.0) -> tuple[str,
         if step_m >= 0.01:  # noise of a standing robot is no way
             way_m, before = way_m + step_m, here
     return goal.state, way_m, world.now_s - began_s
+
+
+def simulate(world: LockstepWorld, text: str) -> DrivenPlan:
+    """Return what a sentence comes to in the simulator, from where a world's robot stands.
+
+    The simulator is told what the planner of that world knows: the map, and what its lidar has
+    shown. What truly stands there it is not told.
+    """
+    missions = world.planner.missions
+    layer = missions.obstacles.report if missions.obstacles is not None else None
+    router = OwnRouter(world.scene.router, world.planner.obstacle_memory)
+    rehearser = Rehearser(missions.memory, world.scene.robot, router, lambda: missions.loop.book)
+    plan = asyncio.run(rehearser.plan_of(text))
+    shown = asyncio.run(rehearser.of_plan(plan))
+    request = DriveRequest(
+        site=str(world.scene.folder.absolute()),
+        robot=world.scene.robot,
+        begins=shown.begins,
+        rows=steps_to_drive(plan, shown),
+        cells_bytes=len(layer.cells) if layer is not None else 0,
+    )
+    driving = RehearsalDrive(request, layer.cells + layer.suspicions if layer is not None else b"")
+    for _ in driving.turns():
+        pass
+    return driving.plan()

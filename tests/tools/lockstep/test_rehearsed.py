@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from tests.tools.lockstep.rehearsals import drive, rehearse
+from tests.tools.lockstep.rehearsals import drive, rehearse, simulate
 from tools.lockstep import LockstepWorld
 
 METRES, SECONDS = 0.05, 0.15
@@ -23,10 +23,15 @@ def test_a_drive_takes_what_its_rehearsal_told(
     world = ready(seed=1)
     told = rehearse(world, order)
     assert told.is_whole
+    tried = simulate(world, order)
     ended, way_m, took_s = drive(world, order)
     assert ended == "succeeded", world.describe()
     assert told.length_m == pytest.approx(way_m, rel=METRES)
     assert told.seconds == pytest.approx(took_s, rel=SECONDS)
+    assert [step.outcome for step in tried.steps] == ["succeeded"] * len(tried.steps)
+    assert tried.length_m == pytest.approx(way_m, rel=METRES)
+    assert tried.seconds == pytest.approx(took_s, rel=SECONDS)
+    assert tried.contacts == world.contacts == 0
 
 
 def test_a_rehearsal_moves_nothing_and_leaves_no_goal(ready: Callable[..., LockstepWorld]) -> None:

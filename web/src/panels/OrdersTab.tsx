@@ -5,6 +5,7 @@ import { say, t } from "../i18n";
 import { fetchHistory, fetchOrders } from "../net/api";
 import { keepOrder, turnOrder } from "../state/acts";
 import { ordersVersion, pageFresh } from "../state/store";
+import { HomeWhenLow } from "./HomeWhenLow";
 import { localTime, runWords, standsWords } from "./standing";
 import type { Firing, StandingOrder, StandingOrders } from "../wire/types";
 
@@ -88,6 +89,7 @@ function List() {
       id="orders"
     >
       <h2 id="orders-title">{t("orders.kept")}</h2>
+      {orders && <HomeWhenLow orders={orders.orders} />}
       {orders?.orders.length === 0 && <p class="fine">{t("orders.none")}</p>}
       <ul class="taught">
         {orders?.orders.map((order) => (

@@ -1,8 +1,9 @@
 /** Show what a plan would do beside the yes: each way's metres, seconds and narrowest place. */
-import { say, t, word } from "../i18n";
+import { say, t } from "../i18n";
 import { fixed } from "../panels/format";
 import { act, give } from "../state/acts";
-import { put, rehearse, type RehearsedStep, shown, waiting } from "./rehearsal";
+import { DrivenPart } from "./DrivenPart";
+import { nameOf, put, rehearse, type RehearsedStep, shown, waiting } from "./rehearsal";
 
 export function RehearsalPanel() {
   const now = shown.value;
@@ -23,6 +24,7 @@ export function RehearsalPanel() {
       <p class="fine" id="rehearsal-sum">
         {t("rehearsal.sum", figures(plan))} {!plan.is_whole && t("rehearsal.not_whole")}
       </p>
+      <DrivenPart of={of} />
       <div class="buttons">
         <DoIt of={of} />
         <button type="button" class="quiet" onClick={() => put(null)}>
@@ -55,11 +57,6 @@ export function ShowFirst({ text }: { text: string }) {
       {t("rehearsal.show")}
     </button>
   );
-}
-
-function nameOf(step: RehearsedStep): string {
-  const name = step.name ? say(step.name) : word("step", step.kind).replace("{what}", "").trim();
-  return step.branch ? `${t("rehearsal.perhaps")} ${name}` : name;
 }
 
 const figures = (of: { length_m: number; seconds: number }): Record<string, string> => ({

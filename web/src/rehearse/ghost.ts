@@ -1,6 +1,7 @@
-/** Draw what is rehearsed as a ghost on the map: the ways, and where each of them is narrowest. */
+/** Draw what is rehearsed on the map: the ways as a ghost, and where the simulator drove along them. */
 import { effect } from "@preact/signals";
 import { type Drawing, outlineOf } from "../map/drawing";
+import { driven } from "./drive";
 import { shown } from "./rehearsal";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -9,15 +10,19 @@ const SVG = "http://www.w3.org/2000/svg";
 export function followGhost(drawing: Drawing): () => void {
   const within = drawing.layers.find((svg) => svg.classList.contains("drawing"))?.firstElementChild;
   const ghost = document.createElementNS(SVG, "path");
+  const trail = document.createElementNS(SVG, "path");
   ghost.setAttribute("class", "ghost");
-  within?.append(ghost);
+  trail.setAttribute("class", "driven-trail");
+  within?.append(ghost, trail);
   const end = effect(() => {
     const steps = shown.value?.plan.steps ?? [];
     const ways = steps.filter((step) => step.points.length > 1);
     ghost.setAttribute("d", ways.map((step) => outlineOf(step.points)).join(""));
+    trail.setAttribute("d", outlineOf(driven.value?.driven.trail ?? []));
   });
   return () => {
     end();
     ghost.remove();
+    trail.remove();
   };
 }

@@ -1,5 +1,6 @@
 /** Hold what a plan would do, as the planner tells it, until it is done or put away. */
 import { computed, effect, signal } from "@preact/signals";
+import { say, t, word } from "../i18n";
 import { call } from "../net/api";
 import { explain, tell } from "../state/acts";
 import { currentGoals } from "../state/store";
@@ -71,4 +72,10 @@ export async function rehearse(of: Shown["of"], quietly = false): Promise<void> 
 export function put(next: Shown | null): void {
   asked += 1;
   shown.value = next;
+}
+
+/** Name a step of a plan that is shown: its place, or what it does. */
+export function nameOf(step: Pick<RehearsedStep, "kind" | "name" | "branch">): string {
+  const name = step.name ? say(step.name) : word("step", step.kind).replace("{what}", "").trim();
+  return step.branch ? `${t("rehearsal.perhaps")} ${name}` : name;
 }

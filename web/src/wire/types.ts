@@ -526,6 +526,8 @@ export type StandingOrder = {
   readonly text: string;
   readonly when: Bilingual;
   readonly does: Bilingual;
+  readonly rule: { readonly event?: string };
+  readonly may: readonly { readonly kind: string }[]; // the plan that was told when it was kept
   readonly state: "active" | "paused" | "ended";
   readonly resumes: string | null; // where it was put off, until when
   readonly next: string | null; // on the robot's own clock
