@@ -68,10 +68,9 @@ class PlannerDoor:
         given = {name: value for name, value in query.items() if value is not None}
         return (await self._ask("GET", path, params=given)).json()
 
-    async def read(self, path: str) -> tuple[bytes, str]:
-        """Return an answer's bytes and their type."""
-        answer = await self._ask("GET", path)
-        return answer.content, answer.headers.get("content-type", "application/octet-stream")
+    async def read(self, path: str) -> httpx.Response:
+        """Return an answer that is no JSON."""
+        return await self._ask("GET", path)
 
     async def post(self, path: str, body: dict[str, Any] | None = None) -> Any:
         """Ask for an act, and return the JSON of the answer."""

@@ -186,8 +186,8 @@ class RobotTools:
             goal = await self._door.post("/v1/goals", body)
             ended = await self._until(goal["id"], LOOKS_S, ENDED | WAITS | {"paused"})
             answer = goal_view(ended, agent)
-        image, why = await self._picture()
-        seen = Sighting(answer=answer, picture_age_s=None if image is None else 0.0)
+        image, age_s, why = await self._picture()
+        seen = Sighting(answer=answer, picture_age_s=age_s)
         text = TextContent(type="text", text="\n".join(filter(None, (seen.model_dump_json(), why))))
         content: list[Any] = [text] if image is None else [text, image]
         return CallToolResult(content=content, structured_content=seen.model_dump(mode="json"))
@@ -232,13 +232,15 @@ class RobotTools:
             await asyncio.sleep(min(pause_s, left_s))
         raise AssertionError  # pauses never end
 
-    async def _picture(self) -> tuple[ImageContent | None, str]:
+    async def _picture(self) -> tuple[ImageContent | None, float | None, str]:
+        """Return the newest picture and its age [s], or why there is none."""
         try:
-            data, kind = await self._door.read("/v1/camera.jpg")
+            answer = await self._door.read("/v1/camera.jpg")
         except DoorError as refused:
-            return None, str(refused)
-        encoded = base64.b64encode(data).decode("ascii")
-        return ImageContent(type="image", data=encoded, mime_type=kind), ""
+            return None, None, str(refused)
+        encoded, kind = base64.b64encode(answer.content).decode("ascii"), "content-type"
+        image = ImageContent(type="image", data=encoded, mime_type=answer.headers[kind])
+        return image, float(answer.headers["x-pons-age-s"]), ""
 
 
 def _pauses() -> Iterator[float]:

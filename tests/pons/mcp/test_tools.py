@@ -23,6 +23,7 @@ from planner.state_database import StateDatabase
 from pons.mcp.http_door import AgentsOnly, build_app
 from pons.mcp.planner_door import TOKEN, PlannerDoor
 from pons.mcp.server import build_server
+from tests.conftest import ROOT
 from tests.planner.api.fakes import FakeServices, two_room
 from tests.planner.api.served import BASE
 from tests.planner.api.test_agents import ACCESS, PEOPLE
@@ -31,6 +32,7 @@ from tests.planner.mission import live
 from tests.planner.mission.live import KITCHEN, Together, run
 
 CLAUDE, MAIL = PEOPLE
+PAGE = ROOT / "docs/mcp.md"
 TOOLS = {
     "status", "places", "what_would_you_do", "order", "answer", "cancel", "wait_for", "stop",
     "look", "recall", "history",
@@ -83,6 +85,8 @@ def test_tools_are_few_typed_hinted_and_name_no_velocity_and_no_coordinate() -> 
         async with Client(build_server(PlannerDoor(BASE))) as client:
             tools = (await client.list_tools()).tools
         assert {tool.name for tool in tools} == TOOLS
+        rows = re.findall(r"^\| `(\w+)` \|.*\| (yes|no) \|$", PAGE.read_text("utf-8"), re.MULTILINE)
+        assert {name for name, _ in rows} == TOOLS
         for tool in tools:
             assert tool.description
             assert tool.output_schema is not None, tool.name
