@@ -102,7 +102,7 @@ def _new(settings: LaunchSettings, name: str, *, is_function: bool) -> int:
 
     path = settings.home / FOLDER / f"{name}.{'py' if is_function else 'toml'}"
     try:
-        check_name(path)
+        check_name(name, path.name)
         if any(path.with_suffix(kind).exists() for kind in (".toml", ".py")):
             raise SkillProblem("skill_exists", path.name, name=name, file_name=path.name)
         place = next(iter(_names(settings).by_id), "kitchen")

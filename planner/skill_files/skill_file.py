@@ -55,18 +55,18 @@ def read_skill(path: Path) -> Skill:
     return found
 
 
-def check_name(path: Path) -> None:
-    """Judge the name of a skill's file. Raises SkillProblem."""
+def check_name(name: str, file: str) -> None:
+    """Judge the name of a skill. Raises SkillProblem."""
     try:
-        _NAME.validate_python(path.stem)
+        _NAME.validate_python(name)
     except ValidationError:
-        raise SkillProblem("skill_name", path.name) from None
+        raise SkillProblem("skill_name", file) from None
 
 
 def _text_of(path: Path) -> str:
     """Return a file's text; a link, a device, a pipe and what is too long are refused unread."""
     name = path.name
-    check_name(path)
+    check_name(path.stem, name)
     try:
         opened = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError as wrong:

@@ -15,6 +15,7 @@ from pydantic import ValidationError
 from planner.language.catalogue import message, template
 from planner.language.place_lists import known_places, rejection_outcome
 from planner.plan import (
+    CALLS,
     DRIVES,
     GIVEN,
     NEEDS_CAMERA,
@@ -71,6 +72,7 @@ STEPS: list[dict[str, Any]] = [
     {"kind": "look", "question": "what do you see?"},
     {"kind": "follow", "object": "the person"},
     {"kind": "explore"},
+    {"kind": "use_skill", "name": "evening_round", "arguments": ["kitchen", ""]},
     {"kind": "recall", "object": "red cup", "place": "kitchen", "span": "morning"},
     {"kind": "wait_for", "word": "go", "seconds": 60.0},
     {
@@ -199,6 +201,7 @@ def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
         return
     assert verdict is not None
     kinds = ((NEEDS_CAMERA, Code.NO_CAMERA), (GIVEN, Code.POINT_NOT_GIVEN))
+    kinds += ((CALLS, Code.NO_CAPABILITY),)
     lack = next((code for kinds_of, code in kinds if step["kind"] in kinds_of), Code.NOT_MAPPING)
     assert rejection_outcome(verdict, HOME).code is lack
     chinese = rejection_outcome(verdict, HOME).message.zh.replace("`pons up --map", "")
