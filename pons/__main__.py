@@ -256,7 +256,8 @@ _BARE_TOOLS = frozenset({"tls", "key", "mqtt"})
 """Modules of ours whose ``run`` takes the settings alone; only the one that is asked for loads."""
 _PLANNERS = frozenset({"places", "people", "orders", "replies", "goals", "log"})
 _TOOLS = _BARE_TOOLS | _PLANNERS | {
-    "doctor", "why", "foxglove", "braking", "fence", "calibrate", "fault", "replay", "detect",
+    "doctor", "why", "foxglove", "record", "braking", "fence", "calibrate", "fault", "replay",
+    "detect",
 }  # fmt: skip
 
 
@@ -313,6 +314,10 @@ def _show(settings: LaunchSettings, said: argparse.Namespace) -> int:
         from pons import foxglove
 
         return foxglove.run(settings, said.act, said.port)
+    if said.word == "record":
+        from pons import record
+
+        return record.export(said.files, said.to, as_json=said.json)
     from pons import replay
 
     if said.with_model is not None:

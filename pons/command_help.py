@@ -53,6 +53,12 @@ HELP = {
         "Open the page of the running robot in this machine's browser, and print its address.",
         "pons open",
     ),
+    "record": _entry(
+        "write recordings of the black box as a rosbag2 for the tools of ROS 2",
+        "Write recordings of one run as a rosbag2: a folder with an MCAP file of ROS 2 messages "
+        "(scan, tf, odom, pose, plan, cmd_vel, rosout, diagnostics); docs/black-box.md.",
+        "pons record export .pons/recordings/20261121T083012Z-*.mcap --to drive",
+    ),
     "foxglove": _entry(
         "show the running robot live to Foxglove or Lichtblick, until Ctrl-C",
         "Serve scan, pose, route, map, camera, objects, rows and speeds on this machine's "

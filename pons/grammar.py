@@ -55,9 +55,7 @@ def parser() -> CommandParser:
         add_command(words, word).add_argument("goal", nargs="?", metavar="GOAL", help="its id")
     for word in ("arm", "reset", "tls", "mqtt"):
         add_command(words, word)
-    shown = add_command(words, "foxglove")
-    shown.add_argument("act", nargs="?", choices=("layout",), help="print the window's layout")
-    shown.add_argument("--port", type=int, default=8765, help="of the loopback: 8765")
+    _showing(words)
     _doctor(words)
     _calibrate(words)
     wrote = add_command(words, "replies")
@@ -93,6 +91,17 @@ def _of_robot(word: CommandParser) -> CommandParser:
         "--robot", type=Path, metavar="FILE", help="robot.toml, or a preset's name (PONS_ROBOT)"
     )
     return word
+
+
+def _showing(words: Words) -> None:
+    kept = add_command(words, "record")
+    kept.add_argument("act", choices=("export",), help="write a rosbag2 (MCAP) for ROS 2's tools")
+    kept.add_argument("files", nargs="+", type=Path, metavar="FILE", help="recordings of one run")
+    kept.add_argument("--to", type=Path, metavar="FOLDER", help="beside the first, unless named")
+    kept.add_argument("--json", action="store_true", help="as JSON")
+    shown = add_command(words, "foxglove")
+    shown.add_argument("act", nargs="?", choices=("layout",), help="print the window's layout")
+    shown.add_argument("--port", type=int, default=8765, help="of the loopback: 8765")
 
 
 def _helping(words: Words) -> None:
