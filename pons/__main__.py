@@ -81,7 +81,7 @@ def _run_command(words: list[str]) -> int:
         as_json = len(words) > 1
         stop.leave(stop.run(load(forgiving=True), words[0], as_json=as_json))  # type: ignore[arg-type]  # one of them
     if words in (["--version"], ["version"]):
-        from pons.version import version_line
+        from pons_assets.version import version_line
 
         print(version_line())
         return 0
