@@ -1,4 +1,7 @@
-"""Tell which version of Pons this is, with its commit where that is known: ``pons --version``."""
+"""Tell which version of Pons this is, with its commit where that is known: ``pons --version``.
+
+Late to import: it asks git, and ``pons stop`` imports its package.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +17,11 @@ PACKAGE = "pons-robot"
 def version_line() -> str:
     """Return the line for a person and a bug report."""
     commit = _commit()
-    return f"pons {release()}" + (f" ({commit})" if commit else "")
+    return f"pons {version_number()}" + (f" ({commit})" if commit else "")
 
 
-def release() -> str:
-    """Return the version alone."""
+def version_number() -> str:
+    """Return the release, without asking anybody; the planner tells it to the page."""
     if not IS_INSTALLED:  # a checkout may have been installed at another version
         return str(tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"])
     from importlib import metadata

@@ -90,6 +90,7 @@ def build(
         docs_url=None,
         redoc_url=None,
         lifespan=lifespan,
+        separate_input_output_schemas=False,  # a step is told as it is taken
     )
     for part in _PARTS:
         app.include_router(part.routes(services))

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from fastapi import APIRouter
 
 from planner.brain import mind_of
 from planner.plan import Frozen, Language
-from pons_assets.version import release
+from pons_assets.version import version_number
 from wire import PROTOCOL
 
 if TYPE_CHECKING:
@@ -53,7 +52,7 @@ def routes(services: Services) -> APIRouter:
         """Tell what this robot can do: places, steps, eyes, languages, version, map."""
         robot = services.robot.description
         return Capabilities(
-            release=_release(),
+            release=version_number(),
             wire_protocol=PROTOCOL,
             robot_id=robot.id,
             robot_hash=robot.hash,
@@ -71,6 +70,3 @@ def routes(services: Services) -> APIRouter:
         )
 
     return router
-
-
-_release = cache(release)

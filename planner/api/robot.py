@@ -7,6 +7,7 @@ import logging
 import sys
 from array import array
 from dataclasses import asdict
+from functools import cache
 from typing import Any
 
 from fastapi import APIRouter
@@ -89,12 +90,20 @@ def _localization_kind(services: Services) -> str:
 
 
 def about(services: Services) -> dict[str, Any]:
-    """Return the constants of a planner's run: the robot's body and its limits."""
+    """Return the constants of a planner's run: its version, the robot's body and its limits."""
     robot = services.robot.description
     return {
+        "version": _version(),
         "base": robot.base.model_dump(mode="json"),
         "limits": robot.limits.model_dump(mode="json"),
     }
+
+
+@cache
+def _version() -> str:
+    from pons_assets.version import version_number
+
+    return version_number()
 
 
 def scan_view(services: Services) -> list[int]:

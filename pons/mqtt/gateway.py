@@ -26,7 +26,7 @@ from pons.mqtt.direct_halt import DirectHalt
 from pons.mqtt.discovery import OFFLINE, ONLINE, discovery, topics_of
 from pons.mqtt.orders import TOPICS, HomeOrder, MessageRefusal, OrderGate, read_order
 from pons.mqtt.planner_watch import PlannerView, PlannerWatch
-from pons_assets.version import release
+from pons_assets.version import version_number
 from processes.backoff import Backoff
 from wire import ConfigError
 
@@ -62,7 +62,9 @@ class HomeGateway:
     ) -> None:
         self._launch, self._settings = launch, settings
         self._topics = topics_of(settings, robot_id)
-        self._config = json.dumps(discovery(settings, robot_id, release(), has_camera=has_camera))
+        self._config = json.dumps(
+            discovery(settings, robot_id, version_number(), has_camera=has_camera)
+        )
         self._pictures = has_camera and settings.picture_s > 0
         self._language = settings.language.value
         self._changed = asyncio.Event()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil
-from statistics import median
 from typing import TYPE_CHECKING, Protocol
 
 from sensors.lidar import ld08, ldrobot, rplidar, ydlidar
@@ -108,8 +107,6 @@ def _dtr(config: LidarConfig) -> bool | None:
 
 _ENOUGH_FRAMES = 2
 _ENOUGH_BEAMS = 20
-_SLOW_S = 1.0 / 3_000
-"""Between two beams: an LD08 takes 2 300 a second, its faster kin 4 500, in the same frames."""
 
 
 def recognize(data: bytes) -> str | None:
@@ -117,7 +114,7 @@ def recognize(data: bytes) -> str | None:
     ld = ldrobot.LdRobotDecoder()
     beams = ld.feed(data, 0.0)
     if ld.frames >= _ENOUGH_FRAMES:
-        return "ld08" if median(each.period_s for each in beams) > _SLOW_S else "ld19"
+        return "ld08" if ld08.is_slow(beams) else "ld19"
     for model in ("x4", "g2"):  # samples of 2 and of 3 bytes
         yd = ydlidar.YdlidarDecoder(ydlidar.MODELS[model])
         yd.feed(data, 0.0)

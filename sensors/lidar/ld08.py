@@ -10,10 +10,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import atan2, degrees, hypot
+from statistics import median
+from typing import TYPE_CHECKING
 
 from devices.port_probe import PortAnswer, PortProbe
 from sensors.lidar.ldrobot import LdRobotDecoder, describe
 from sensors.lidar.turn import Beams
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 BAUD = 115_200
 POINTS_PER_S = 2_300
@@ -58,9 +63,15 @@ class Ld08Decoder(LdRobotDecoder):
         return replace(beams, angles_deg=angles_deg, distances_m=distances_m)
 
 
+def is_slow(beams: Sequence[Beams]) -> bool:
+    """Tell whether frames are an LD08's: its kin, in the same frames, take 4 500 beams a second."""
+    return median(each.period_s for each in beams) > 1.0 / 3_000
+
+
 def recognise(data: bytes) -> PortAnswer | None:
     """Return what the sensor says of itself; it speaks unasked."""
-    return describe(data, "lidar LDS-02 (LD08)")
+    beams = LdRobotDecoder().feed(data, 0.0)
+    return describe(data, "lidar LDS-02 (LD08)") if beams and is_slow(beams) else None
 
 
 PROBES = (PortProbe("lidar", "ld08", BAUD, recognise),)

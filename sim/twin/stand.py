@@ -2,7 +2,8 @@
 
 ``python -m sim.twin.stand --robot robot.toml [--wrong NAME …]`` plays it at drive.port, and a lidar
 at lidar.port, so that a trial (docs/robot-try.md) can be gone through without metal. Standard input
-is the hands: ``left 3``, ``right 3`` turn a wheel, ``front``, ``side``, ``away`` hold a box.
+is the hands: ``left 3``, ``right 3`` turn a wheel, ``quarter`` turns the whole robot to the left,
+which a base with a gyro feels, ``front``, ``side``, ``away`` hold a box.
 """
 
 from __future__ import annotations
@@ -20,8 +21,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 from sim.twin.lidar import LidarTwin
 from sim.twin.line import TwinLine
-from sim.twin.twin import FIRMWARES
-from wire import DriveState, load_robot
+from sim.twin.twin import FIRMWARES, GyroFirmware
+from wire import DriveState, Imu, load_robot
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,6 +37,10 @@ TICK_S = 0.01
 LAG_S = 0.03
 HAND_TICKS = 200
 ROOM_M, BOX_M, BOX_HALF_RAD = 3.0, 0.5, radians(12)
+WHEELS = {"left": 0, "right": 1}
+BOXES = {"front": 0.0, "side": pi / 2, "away": None}
+HANDS = (*WHEELS, "quarter", *BOXES)
+"""The words of the hands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +64,7 @@ class Wires:
     """So much later than its time-out it stops."""
     stop_pressed: bool = False
     battery: float = 0.8
+    gyro_sign: int = 1
     lidar_mirrored: bool = False
     lidar_turned_rad: float = 0.0
 
@@ -76,6 +82,7 @@ WRONG: Final[dict[str, dict[str, Any]]] = {
     "coasts": {"coast_s": 1.0},
     "stop_pressed": {"stop_pressed": True},
     "battery_empty": {"battery": 0.02},
+    "gyro_reversed": {"gyro_sign": -1},
     "lidar_mirrored": {"lidar_mirrored": True},
     "lidar_turned": {"lidar_turned_rad": pi / 2},
 }
@@ -94,18 +101,24 @@ class WheelStand:
         self._live_s = now_s
         self._integral = [0.0, 0.0]
         self._todo: list[tuple[int, float]] = []
+        self._quarter_ticks = 0
 
     @property
     def is_turned(self) -> bool:
-        """Tell whether hands turn a wheel now."""
-        return bool(self._todo)
+        """Tell whether hands turn a wheel or the robot now."""
+        return bool(self._todo or self._quarter_ticks)
 
     def turn_by_hand(self, wheel: int, turns: float) -> None:
         """Begin to turn a wheel; it takes two seconds."""
         self._todo = [(wheel, turns)] * HAND_TICKS
 
+    def turn_robot_by_hand(self) -> None:
+        """Begin to turn the whole robot a quarter to the left; it takes two seconds."""
+        self._quarter_ticks = HAND_TICKS
+
     def tick(self, now_s: float) -> None:
         """Live for 10 ms."""
+        self._feel()
         if self._todo:
             wheel, turns = self._todo.pop()
             self.angle[wheel] += turns * tau / HAND_TICKS
@@ -119,6 +132,24 @@ class WheelStand:
         data = self.firmware.say(self._body(), now_s)
         if data:
             self.end.write(data)
+
+    def _feel(self) -> None:
+        """Let the base's gyro read what hands do to the robot."""
+        if not isinstance(self.firmware, GyroFirmware):
+            self._quarter_ticks = 0
+            return
+        radps = pi / 2 / (HAND_TICKS * TICK_S) if self._quarter_ticks else 0.0
+        self._quarter_ticks = max(0, self._quarter_ticks - 1)
+        self.firmware.feel(
+            Imu(
+                boot_id="stand",
+                seq=0,
+                stamp_s=0.0,
+                yaw_rate_radps=self.wires.gyro_sign * radps,
+                accel_x_mps2=0.0,
+                accel_y_mps2=0.0,
+            )
+        )
 
     def _turn(self, told: tuple[float, float, bool]) -> None:
         """Regulate each wheel by the encoder that its controller reads, as a base does."""
@@ -226,14 +257,15 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _play(stand: WheelStand, lidar: LidarTwin | None, robot: RobotDescription) -> None:
     shown: float | None = None
-    boxes = {"front": 0.0, "side": pi / 2, "away": None}
     next_s = time.monotonic()
     while True:
         for word, turns in _orders():
-            if word in boxes:
-                shown = boxes[word]
+            if word in BOXES:
+                shown = BOXES[word]
+            elif word == "quarter":
+                stand.turn_robot_by_hand()
             else:
-                stand.turn_by_hand(0 if word == "left" else 1, turns)
+                stand.turn_by_hand(WHEELS[word], turns)
         now_s = time.monotonic()
         stand.tick(now_s)
         if lidar is not None:
@@ -249,11 +281,23 @@ def _orders() -> list[tuple[str, float]]:
     data = os.read(sys.stdin.fileno(), 4096)
     if not data:
         raise KeyboardInterrupt
+    return read_hands(data.decode("utf-8", "replace"))
+
+
+def read_hands(text: str) -> list[tuple[str, float]]:
+    """Return what lines of words mean; a word that hands don't know is told."""
     found = []
-    for line in data.decode("utf-8", "replace").splitlines():
+    for line in text.splitlines():
         word, _, turns = line.strip().partition(" ")
-        if word in ("left", "right", "front", "side", "away"):
-            found.append((word, float(turns or 3.0)))
+        try:
+            count = float(turns or 3.0)
+        except ValueError:
+            word, count = "", 0.0
+        if word in HANDS and -10.0 <= count <= 10.0:
+            found.append((word, count))
+        elif line.strip():
+            told = f"hands know {', '.join(HANDS)}; left and right with turns, 10 at most\n"
+            sys.stderr.write(told)
     return found
 
 

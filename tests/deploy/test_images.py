@@ -17,8 +17,10 @@ from tests.deploy.installed import PROCESSES, ROOT, compose, weight_of
 KNOWN = {
     *("build", "image", "init", "restart", "read_only", "tmpfs", "cap_drop", "cap_add", "ports"),
     *("security_opt", "stop_grace_period", "network_mode", "volumes", "profiles", "command"),
-    *("entrypoint", "environment", "healthcheck", "ulimits", "cpu_shares"),
+    *("entrypoint", "environment", "healthcheck", "ulimits", "cpu_shares", "devices", "group_add"),
 }
+METAL = {"robot-bridge", "robot-planner", "robot-localization"}
+"""What any robot of metal drives by; how it senses is a profile each."""
 ORDINARY = 1024
 """Of who says nothing."""
 
@@ -80,11 +82,14 @@ def test_profiles_hold_whole_robots() -> None:
     described = compose()["services"]
     members = {
         profile: {name for name, one in described.items() if profile in one["profiles"]}
-        for profile in ("sim", "robot", "llm")
+        for profile in ("sim", "robot", "lidar", "camera", "ros2", "llm")
     }
     assert members == {
         "sim": set(PROCESSES),
-        "robot": {"robot-bridge", "robot-planner"},
+        "robot": METAL,
+        "lidar": {"robot-lidar"},
+        "camera": {"robot-camera"},
+        "ros2": {"robot-ros2"},
         "llm": {"llm"},
     }
 
@@ -97,7 +102,9 @@ def test_without_a_profile_the_simulator_starts() -> None:
 def test_processes_share_their_sockets_and_only_the_planner_has_a_network() -> None:
     for name, service in compose()["services"].items():
         assert "state:/var/lib/pons" in service["volumes"], name
-        expected = {"llm": "service:planner", "planner": "bridge", "robot-planner": "bridge"}
+        expected = {"llm": "service:planner"} | dict.fromkeys(
+            ("planner", "robot-planner", "robot-ros2"), "bridge"
+        )
         assert service["network_mode"] == expected.get(name, "none"), name
         if "ports" in service:
             assert all(port.startswith("127.0.0.1:") for port in service["ports"])
@@ -114,12 +121,25 @@ def test_only_the_robots_bridge_may_be_real_time() -> None:
             assert not {"cap_add", "ulimits"} & set(service), name
 
 
+def test_a_container_of_metal_has_its_own_device_and_the_group_that_may_open_it() -> None:
+    ports = {"robot-bridge": "DRIVE_PORT", "robot-lidar": "LIDAR_PORT", "robot-camera": "CAMERA"}
+    for name, service in compose()["services"].items():
+        devices = service.get("devices", [])
+        assert len(devices) == (name in ports), name
+        for device in devices:
+            outside, inside = device[: len(device) // 2], device[len(device) // 2 + 1 :]
+            assert outside == inside, "robot.toml names one path"
+            assert outside.startswith(f"${{PONS_{ports[name]}:-/dev/")
+        assert ("group_add" in service) == (name in ports)
+
+
 def test_a_container_weighs_what_its_process_would_elsewhere() -> None:
     shares = {name: one.get("cpu_shares") for name, one in compose()["services"].items()}
     planner, camera = weight_of(PLANNER_NICE, ORDINARY), weight_of(CAMERA_NICE, ORDINARY)
     assert shares["planner"] == shares["robot-planner"] == pytest.approx(planner, rel=0.02)
-    assert shares["camera"] == pytest.approx(camera, rel=0.02)
-    for name in ("bridge", "robot-bridge", "sim", "localization"):
+    assert shares["camera"] == shares["robot-camera"] == pytest.approx(camera, rel=0.02)
+    senses = ("robot-localization", "robot-lidar", "robot-ros2")
+    for name in ("bridge", "robot-bridge", "sim", "localization", *senses):
         assert shares[name] > 2 * shares["planner"], name
     assert shares["llm"] is None
 
@@ -145,7 +165,8 @@ def compose_command() -> list[str]:
     [
         ((), set(PROCESSES)),
         (("sim",), set(PROCESSES)),
-        (("robot",), {"robot-bridge", "robot-planner"}),
+        (("robot",), METAL),
+        (("robot", "lidar", "camera"), {*METAL, "robot-lidar", "robot-camera"}),
         (("sim", "llm"), {*PROCESSES, "llm"}),
     ],
 )

@@ -62,6 +62,7 @@ export function goal(id: string, state = "running", more: Partial<Goal> = {}): G
 }
 
 export const about = {
+  version: "0.1.0",
   base: { wheel_radius_m: 0.1, wheel_separation_m: 0.5, radius_m: 0.3 },
   limits: { max_speed_mps: 0.5, max_turn_radps: 1 },
 };

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import base64
 import json
+import re
 from typing import Any
 
 import pytest
@@ -186,6 +187,7 @@ def test_a_page_that_lost_count_gets_another_snapshot() -> None:
     ):
         first = socket.receive_json()
         assert (first["seq"], first["kind"]) == (1, "snapshot")
+        assert re.fullmatch(r"\d+\.\d+\.\d+", first["about"]["version"])
         assert first["about"]["base"]["wheel_separation_m"] == 0.5
         socket.send_text('{"snapshot": true}')
         seqs = [1]

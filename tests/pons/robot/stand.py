@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import pi
 from typing import Literal
 
 from bridge.drive import SerialDrive
 from bridge.drive.serial_drive import SERIAL_PROTOCOLS
-from sim.twin.stand import HAND_TICKS, TICK_S, WheelStand, Wires
-from sim.twin.twin import GyroFirmware
-from tests.wire.examples import EXAMPLES
+from sim.twin.stand import TICK_S, WheelStand, Wires
 from tools.lockstep.drive_process import BaseEnd
 from tools.lockstep.serial_line import SerialLine
-from wire import DriveCommand, Imu, RobotDescription
+from wire import DriveCommand, RobotDescription
 
 __all__ = ["START_S", "TICK_S", "Stand", "Wires"]
 
@@ -39,7 +36,6 @@ class Stand:
         self.drive = SerialDrive(protocol, self.line, "trial", self.now_s)
         self.asked: list[str] = []
         self.steps: list[str] = []
-        self._turns_left = 0
         self._seq = 0
 
     def now_s(self) -> float:
@@ -50,13 +46,13 @@ class Stand:
         """Begin to do what a person is asked to do; it takes two seconds."""
         self.asked.append(code)
         if code == "gyro_left":
-            self._turns_left = HAND_TICKS
+            self.wheels.turn_robot_by_hand()
         else:
             self.wheels.turn_by_hand(*self.hand.get(code, (0, 0.0)))
 
     def has_answered(self) -> bool:
         """Tell whether it is done."""
-        return not (self.wheels.is_turned or self._turns_left)
+        return not self.wheels.is_turned
 
     def tell(self, step: str, seen: str = "") -> None:
         """Note the step."""
@@ -68,9 +64,6 @@ class Stand:
     def wait(self) -> None:
         """Let 10 ms pass."""
         self.time_s += TICK_S
-        if isinstance(self.wheels.firmware, GyroFirmware):
-            self.wheels.firmware.feel(self._gyro())
-        self._turns_left = max(0, self._turns_left - 1)
         self.wheels.tick(self.time_s)
 
     def command_zero(self) -> None:
@@ -79,10 +72,3 @@ class Stand:
         self.drive.write(
             DriveCommand(boot="trial", seq=self._seq, left_radps=0.0, right_radps=0.0, enable=False)
         )
-
-    def _gyro(self) -> Imu:
-        """Read what a hand that turns the whole robot a quarter to the left does to it."""
-        radps = pi / 2 / (HAND_TICKS * TICK_S) if self._turns_left else 0.0
-        imu = EXAMPLES[Imu]
-        assert isinstance(imu, Imu)
-        return imu.model_copy(update={"yaw_rate_radps": radps})

@@ -4,6 +4,7 @@ import { forgetKey, hasKey, needsKey } from "../net/proof";
 import { Plots } from "../plots/Plots";
 import { fresh } from "../state/moment";
 import {
+  about,
   age,
   bridgeFresh,
   gaps,
@@ -88,6 +89,11 @@ export function RobotTab() {
       <ThemePanel />
       <Links />
       <Plots />
+      {about.value && (
+        <p class="fine" id="version">
+          Pons {about.value.version}
+        </p>
+      )}
     </>
   );
 }

@@ -267,6 +267,7 @@ const isSight = (value: unknown): value is Sight =>
 
 const isAbout = (value: unknown): boolean =>
   bag(value) &&
+  text(value.version) &&
   bag(value.base) &&
   [value.base.wheel_radius_m, value.base.wheel_separation_m, value.base.radius_m].every(finite) &&
   bag(value.limits) &&

@@ -289,6 +289,7 @@ export type Draft = {
 export type DraftStep = Pick<Step, "kind"> & Partial<Step>;
 
 export type About = {
+  readonly version: string;
   readonly base: {
     readonly wheel_radius_m: number;
     readonly wheel_separation_m: number;
