@@ -210,6 +210,7 @@ def test_two_fingers_zoom_and_turn_about_what_lies_under_them(opened: Open) -> N
         at = [{"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(points)]
         session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
 
+    touch("touchStart", (-40, 0))
     touch("touchStart", (-40, 0), (40, 0))
     for step in range(1, 11):
         touch("touchMove", (-40 - 2 * step, -6 * step), (40 + 2 * step, 6 * step))

@@ -2,7 +2,8 @@
 
 Prints how soon the map is drawn, which share of a core the page's renderer takes (driving if the
 robot is given something to drive), and by how many steps somebody who knows visible names alone
-does four things. Asserts nothing; says how loaded the machine was. The robot drives: a simulated one.
+does four things. Asserts nothing; says how loaded the machine was. The robot drives: take a simulated
+one.
 """
 
 from __future__ import annotations
@@ -115,6 +116,7 @@ class Newcomer:
 
 
 def answer_a_question(person: Newcomer) -> None:
+    """Answer what the robot asks by the first of its offers."""
     person.read("garage")
     person.steps += 1
     person.page.locator("#asked .clarify button").first.click()
@@ -122,12 +124,14 @@ def answer_a_question(person: Newcomer) -> None:
 
 
 def send_to_a_point(person: Newcomer) -> None:
+    """Send the robot to a spot of the map."""
     person.tap(*FREE_OF_HOME[0])
     person.press("button", "Go here")
     person.read("go to the point")
 
 
 def draw_a_keep_out(person: Newcomer) -> None:
+    """Draw where the robot is to stay out; take it back uncounted."""
     first, *others = CORNERS
     person.tap(*first)
     person.press("button", "Stay out of here")
@@ -140,6 +144,7 @@ def draw_a_keep_out(person: Newcomer) -> None:
 
 
 def replay_the_last_stop(person: Newcomer) -> None:
+    """Look at the newest mission, and move through its recording."""
     person.press("tab", "Past")
     person.steps += 1
     person.page.locator("button.mission").first.click()
@@ -180,6 +185,7 @@ def newcomers(browser: Browser, url: str) -> None:
 
 
 def say(page: Page, text: str) -> None:
+    """Give an order in words."""
     page.fill("#goal-text", text)
     with page.expect_response("**/v1/goals"):
         page.keyboard.press("Enter")
@@ -208,12 +214,12 @@ def main() -> int:
             page.locator("#link[data-state=good]").wait_for(timeout=LONGEST_MS)
             say(page, "go through the kitchen, the bedroom, the living room and the entrance")
             page.wait_for_timeout(3_000)
-            began = page.locator(".motion").inner_text()
-            told = ", ".join(
-                f"{k} {100 * v:.1f} %" for k, v in shares(browser, given.seconds_s).items()
-            )
-            print(f"share of a core over {given.seconds_s:g} s ({began!r} to "
-                  f"{page.locator('.motion').inner_text()!r}): {told}; goal 10 %; {load()}")  # fmt: skip
+            motion = page.locator(".motion")
+            began = motion.inner_text()
+            taken = shares(browser, given.seconds_s)
+            told = ", ".join(f"{kind} {100 * share:.1f} %" for kind, share in taken.items())
+            print(f"share of a core over {given.seconds_s:g} s: {told}; goal 10 %; {load()}; "
+                  f"it said {began!r} before, {motion.inner_text()!r} after")  # fmt: skip
             page.context.close()
         if given.only in (None, "newcomers"):
             newcomers(browser, given.url)

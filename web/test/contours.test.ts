@@ -35,7 +35,7 @@ const signed = (outline: Outline): number => {
 };
 
 describe("outlines of what stands", () => {
-  it("are four corners of a block, in metres, and a diamond of one cell", () => {
+  it("keep corners and straight walls where they are, in metres", () => {
     const [block, ...others] = outlines([
       "........",
       ".######.",
@@ -44,9 +44,24 @@ describe("outlines of what stands", () => {
       "........",
     ]);
     expect(others).toEqual([]);
-    expect(area(block ?? [])).toBeGreaterThan(0.8 * 0.18);
-    expect((block ?? []).length).toBeLessThanOrEqual(8);
+    expect(block).toHaveLength(4);
+    expect(area(block ?? [])).toBeCloseTo(0.18, 9);
     expect(outlines(["...", ".#.", "..."])[0]).toHaveLength(4);
+    const niche = [
+      "......##",
+      "......##",
+      "...#####",
+      "...#####",
+      "...#####",
+      "......##",
+      "......##",
+    ];
+    const [wall = []] = outlines(niche);
+    expect(area(wall)).toBeCloseTo(0.23, 9);
+    for (const [index, [x, y]] of wall.entries()) {
+      const [nextX, nextY] = wall[(index + 1) % wall.length] ?? [x, y];
+      expect(Math.min(Math.abs(nextX - x), Math.abs(nextY - y))).toBeCloseTo(0, 9);
+    }
     expect(outlines(["...", "..."])).toEqual([]);
   });
 

@@ -3,6 +3,7 @@ import {
   boxAround,
   boxOf,
   type Label,
+  lies,
   meet,
   placeLabels,
   type PixelBox,
@@ -87,6 +88,13 @@ describe("labels", () => {
     const [spot] = placeLabels([label(0, 0)], [ring]);
     expect(spot?.leads).toBe(true);
     expect(placeLabels([label(0, 0)], [boxAround({ x: 0, y: 0 }, 500, 500)])).toEqual([null]);
+  });
+
+  it("are cut by the edge of the view only where no other spot is free", () => {
+    const view = { left: 0, top: 0, right: 100, bottom: 100 };
+    const [spot] = placeLabels([label(90, 50)], [], view);
+    expect(spot && lies(boxOf(label(90, 50), spot), view)).toBe(true);
+    expect(placeLabels([label(500, 50)], [], view)[0]).toEqual({ x: 500, y: 64, leads: false });
   });
 
   it("of rooms stand on their point where that is free", () => {

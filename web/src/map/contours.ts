@@ -1,13 +1,13 @@
 /**
- * Turn what stands on a map's cells into outlines: traced along the cells (marching squares of a yes
- * or no), freed of their steps, and with corners rounded by a cell. Pure; worked out once for a grid.
+ * Turn what stands on a map's cells into outlines: traced along the sides of the cells, freed of their
+ * steps, and with corners rounded by a cell. Pure; worked out once for a grid.
  */
 import { Cells, OCCUPIED } from "./cells";
 import type { Corner, Outline } from "./outline";
 import type { Grid } from "../wire/types";
 
-/** Below half a cell, else a wall loses one of the two points at its corner and slants. */
-export const TOLERANCE_CELLS = 0.45;
+/** The steps of a slanted wall lie within a cell of the line; what is farther away is a shape. */
+export const TOLERANCE_CELLS = 1;
 
 const known = new WeakMap<Grid, string>();
 /** How often outlines were worked out: a frame must not. */
@@ -44,7 +44,7 @@ const STEPS = [
   [0, -1],
 ] as const;
 
-/** Return the middles of the sides around all that stands, in order [cells]. */
+/** Return the corners of the cells around all that stands, in order [cells]. */
 function traced(cells: Cells): Outline[] {
   const { width, height } = cells.grid;
   const wide = width + 1;
@@ -72,7 +72,7 @@ function traced(cells: Cells): Outline[] {
       const step: number = key % 4;
       const [dx, dy] = STEPS[step] ?? STEPS[0];
       const [x, y] = [Math.floor(key / 4) % wide, Math.floor(key / 4 / wide)];
-      loop.push([x + dx / 2, y + dy / 2]);
+      loop.push([x, y]);
       const at: number = ((y + dy) * wide + x + dx) * 4;
       // Cells that touch by a corner alone are two: the left turn comes first.
       key = [step + 1, step, step + 3]

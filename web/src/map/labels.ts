@@ -73,10 +73,28 @@ export function spotsOf(label: Label): readonly Spot[] {
   return [at, ...aside].map(({ x, y }) => ({ x, y, leads: false }));
 }
 
-/** Return a spot for each label, null for one that has no room; `blocked` is never covered. */
+const EVERYWHERE: PixelBox = {
+  left: Number.NEGATIVE_INFINITY,
+  top: Number.NEGATIVE_INFINITY,
+  right: Number.POSITIVE_INFINITY,
+  bottom: Number.POSITIVE_INFINITY,
+};
+
+/** Say whether a box lies wholly within another. */
+export const lies = (box: PixelBox, within: PixelBox): boolean =>
+  within.left <= box.left &&
+  box.right <= within.right &&
+  within.top <= box.top &&
+  box.bottom <= within.bottom;
+
+/**
+ * Return a spot for each label, null for one that has no room. `blocked` is never covered; a spot that
+ * the edge of the view cuts is taken only where no other is free.
+ */
 export function placeLabels(
   labels: readonly Label[],
   blocked: readonly PixelBox[],
+  view: PixelBox = EVERYWHERE,
 ): readonly (Spot | null)[] {
   const marks = labels.map(({ at, mark }) => boxAround(at, mark, mark));
   const taken = [...blocked];
@@ -86,7 +104,8 @@ export function placeLabels(
       if (taken.some((other) => meet(box, other))) return false;
       return !marks.some((mark, other) => other !== index && meet(box, mark));
     };
-    const spot = spotsOf(label).find(free) ?? null;
+    const spots = spotsOf(label).filter(free);
+    const spot = spots.find((one) => lies(boxOf(label, one), view)) ?? spots[0] ?? null;
     if (spot !== null) taken.push(boxOf(label, spot));
     return spot;
   });

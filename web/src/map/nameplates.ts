@@ -2,7 +2,7 @@
  * Write names on the map: upright however it is turned, and each with room of its own. Names that have
  * none keep a ring at what they name. Elements are kept while what they say is the same.
  */
-import { type Camera, unmovedPixel } from "./camera";
+import { type Camera, originOf, unmovedPixel } from "./camera";
 import { boxOf, type Label, meet, type PixelBox, placeLabels, type Spot } from "./labels";
 import type { Point } from "./resolve";
 
@@ -88,6 +88,8 @@ export class Nameplates {
 
   /** Give each name its room; `blocked` and the robot's box are never written over [px of the unmoved map]. */
   place(camera: Camera, blocked: readonly PixelBox[], robot: PixelBox | null): void {
+    const { x, y } = originOf(camera);
+    const view = { left: -x, top: -y, right: camera.width - x, bottom: camera.height - y };
     const all = this.all();
     for (const one of all) one.size ??= [one.label.offsetWidth, one.label.offsetHeight];
     const labels = ORDER.flatMap((kind) =>
@@ -96,7 +98,7 @@ export class Nameplates {
         return { at: unmovedPixel(camera, plate.at), width, height, mark: MARK_PX[kind] };
       }),
     );
-    const spots = placeLabels(labels, robot ? [robot, ...blocked] : blocked);
+    const spots = placeLabels(labels, robot ? [robot, ...blocked] : blocked, view);
     all.forEach((one, index) => this.put(one, labels[index]?.at, spots[index] ?? null));
     this.robotThen = robot;
     this.left = new Set(all.filter((_, index) => !spots[index]).map(({ plate }) => plate.id));
