@@ -78,24 +78,24 @@ def refuse_answer(
 def hold_to_agent(planned: Planned) -> Planned:
     """Return a brain's answer to an agent without what would reach the goals of others."""
     plan = planned.plan
-    return planned if plan is None else replace(planned, plan=_held(plan))
+    return planned if plan is None else replace(planned, plan=_hold_plan(plan))
 
 
-def _held(plan: Plan) -> Plan:
+def _hold_plan(plan: Plan) -> Plan:
     match plan:
         case StepPlan() if plan.does in STEPLESS:
             return NEEDED
         case StepPlan():
             return plan.model_copy(update={"does": PlanRole.NEW})
         case Clarify():
-            left = tuple(filter(None, map(_held_option, plan.options)))
+            left = tuple(filter(None, map(_bound_option, plan.options)))
             return plan.model_copy(update={"options": left})
         case _:
             return plan
 
 
-def _held_option(option: Option) -> Option | None:
+def _bound_option(option: Option) -> Option | None:
     if option.plan is None:
         return option
-    held = _held(option.plan)
-    return option.model_copy(update={"plan": held}) if isinstance(held, StepPlan) else None
+    bound = _hold_plan(option.plan)
+    return option.model_copy(update={"plan": bound}) if isinstance(bound, StepPlan) else None

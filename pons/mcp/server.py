@@ -43,14 +43,16 @@ def build_server(door: PlannerDoor, version: str = "") -> MCPServer[Any]:
 def _add_resources(server: MCPServer[Any], door: PlannerDoor) -> None:
     def serve(name: str, told: str, kind: str) -> Callable[[Callable[[], Awaitable[Any]]], None]:
         def register(read: Callable[[], Awaitable[Any]]) -> None:
-            async def guarded() -> Any:
+            async def read_as_agent() -> Any:
                 try:
                     await door.name_agent()
                     return await read()
                 except DoorError as refused:
                     raise ResourceError(str(refused)) from refused
 
-            server.resource(f"pons://{name}", name=name, description=told, mime_type=kind)(guarded)
+            server.resource(f"pons://{name}", name=name, description=told, mime_type=kind)(
+                read_as_agent
+            )
 
         return register
 

@@ -142,14 +142,14 @@ class RobotTools:
         if steps is not None:
             body["steps"] = [step.model_dump(exclude_none=True) for step in steps]
         goal = await self._door.post("/v1/goals", body)
-        return goal_view(await self._planned(goal, PLANNED_S), agent)
+        return goal_view(await self._await_plan(goal, PLANNED_S), agent)
 
     async def answer(self, goal: GoalId, text: Words) -> OrderedGoal:
         """Answer what your own order is asked (waits_for: you). A yes to a plan is a person's."""
         agent = await self._door.name_agent()
         body = {"text": text, "source": "mcp"}
         told = await self._door.post(f"/v1/goals/{quote(goal, safe='')}/answer", body)
-        return goal_view(await self._planned(told, PLANNED_S), agent)
+        return goal_view(await self._await_plan(told, PLANNED_S), agent)
 
     async def cancel(self, goal: GoalId) -> OrderedGoal:
         """End a goal that you gave; a moving robot ramps to a stop."""
@@ -210,7 +210,7 @@ class RobotTools:
         found = await self._door.get("/v1/history", search=search, limit=limit)
         return PastGoals(goals=[past_view(row) for row in found["goals"]])
 
-    async def _planned(self, goal: dict[str, Any], limit_s: float) -> dict[str, Any]:
+    async def _await_plan(self, goal: dict[str, Any], limit_s: float) -> dict[str, Any]:
         """Return a goal once it is understood, or as it stands after so long."""
         if goal["state"] != "planning":
             return goal

@@ -51,7 +51,7 @@ class AwaitedGoal(OrderedGoal):
     came: Literal["ended", "question", "paused", "time_limit"]
 
 
-class HomePlace(BaseModel):
+class OrderPlace(BaseModel):
     """Show a room or place that orders may name."""
 
     id: str
@@ -65,7 +65,7 @@ class HomePlace(BaseModel):
 class HomePlaces(BaseModel):
     """List all places."""
 
-    places: list[HomePlace]
+    places: list[OrderPlace]
 
 
 class RobotGlance(BaseModel):
@@ -186,10 +186,10 @@ def goal_view(goal: dict[str, Any], agent: str) -> OrderedGoal:
     )  # fmt: skip
 
 
-def place_view(place: dict[str, Any]) -> HomePlace:
+def place_view(place: dict[str, Any]) -> OrderPlace:
     """Return a place without where it lies."""
     name = place["name"]
-    return HomePlace(
+    return OrderPlace(
         id=place["id"], name=name["en"], name_zh=name["zh"], kind=place.get("kind", "place"),
         aliases=list(place.get("aliases") or []), room=place.get("room"),
     )  # fmt: skip
