@@ -1,4 +1,4 @@
-"""An owner sets limits on a telephone, starts again by a button, and comes to a robot of their own."""
+"""An owner sets limits on a telephone, starts again by a button, and sets a robot up."""
 
 from __future__ import annotations
 
