@@ -176,22 +176,22 @@ class SettingsDesk:
         if self._environment.get(field.variable, ""):
             detail = f"{field.variable} is set and stands before the file"
             raise SettingsRefusal(ELSEWHERE, detail, name=name, variable=field.variable)
-        if not _fits(field, value, self._most(field)):
-            expected = self._expected(field)
+        if not _fits(field, value, self._upper_bound(field)):
+            expected = self._describe_fit(field)
             detail = f"{name}: expected {expected}"
             raise SettingsRefusal(OUT_OF_RANGE, detail, name=name, expected=expected)
         return field
 
-    def _most(self, field: PageField) -> float:
+    def _upper_bound(self, field: PageField) -> float:
         own = field.name == "limits.max_speed_mps"
         return min(field.most, self.robot_mps) if own else field.most
 
-    def _expected(self, field: PageField) -> str:
+    def _describe_fit(self, field: PageField) -> str:
         match field.kind:
             case FieldKind.YES:
                 return "true / false"
             case FieldKind.NUMBER:
-                return f"{field.least:g} … {self._most(field):g}"
+                return f"{field.least:g} … {self._upper_bound(field):g}"
             case FieldKind.CHOICE:
                 return " / ".join(field.choices)
             case _:
@@ -213,7 +213,7 @@ class SettingsDesk:
             "source": source,
             "choices": list(field.choices),
             "least": field.least if field.kind is FieldKind.NUMBER else None,
-            "most": self._most(field) if field.kind is FieldKind.NUMBER else None,
+            "most": self._upper_bound(field) if field.kind is FieldKind.NUMBER else None,
             "in_force": "at_once" if field.at_once else "next_start",
             "is_pending": value != in_force,
         }

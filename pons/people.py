@@ -29,10 +29,8 @@ KEY_STAYS = (
     "不含操作员密钥：没有 https 的网页不接受密钥。请用 `pons up --tls` 启动。",
 )
 ONLY_HERE = (
-    "This address is the robot's own computer's. For a telephone: PONS_ALLOWED_HOSTS=NAME pons up "
-    "--tls --host 0.0.0.0, with the computer's name in the network (docs/tls.md).",
-    "这是机器人自己电脑的地址。手机请用：PONS_ALLOWED_HOSTS=名称 pons up --tls --host 0.0.0.0，"
-    "名称为该电脑在网络中的名字（docs/tls.md）。",
+    "Here alone; for others PONS_ALLOWED_HOSTS=NAME pons up --tls --host 0.0.0.0 (docs/tls.md)",
+    "仅限本机；手机请用 PONS_ALLOWED_HOSTS=主机名 pons up --tls --host 0.0.0.0（docs/tls.md）",
 )
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PATH = "/v1/people"

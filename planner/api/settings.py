@@ -86,7 +86,7 @@ class ModelTest(Body):
     url: Text | None = None
 
 
-class ModelReached(BaseModel):
+class ModelReachability(BaseModel):
     """Tell whether a model's server can be connected to."""
 
     name: str
@@ -108,21 +108,21 @@ def routes(services: Services) -> APIRouter:
     @router.get("", operation_id="get_settings")
     async def get() -> SettingsView:
         """Give every setting of the page; of a key only whether it is set."""
-        return _view(services, await _asked(services.settings_desk.view))
+        return _view(services, await _do_on_disk(services.settings_desk.view))
 
     @router.patch("", operation_id="change_settings")
     async def change(order: SettingsChange) -> SettingsView:
         """Save changes, if a start would take them; the answer says which are in force."""
         desk = services.settings_desk
         change = partial(desk.change, order.revision, order.changes, order.source)
-        return _view(services, await _asked(change))
+        return _view(services, await _do_on_disk(change))
 
     @router.post("/model/test", operation_id="test_model")
-    async def test_model(order: ModelTest | None = None) -> ModelReached:
+    async def test_model(order: ModelTest | None = None) -> ModelReachability:
         """Connect to a model's server; nothing is sent, so nothing is spent."""
         desk, wanted = services.settings_desk, order or ModelTest()
-        name, address = await _asked(partial(desk.model_to_test, wanted.url))
-        return ModelReached(**await asyncio.to_thread(reach, name, address))
+        name, address = await _do_on_disk(partial(desk.model_to_test, wanted.url))
+        return ModelReachability(**await asyncio.to_thread(reach, name, address))
 
     @router.post("/restart", operation_id="restart_planner", status_code=202)
     async def restart(order: RestartAsk | None = None) -> dict[str, str]:
@@ -145,7 +145,7 @@ def _view(services: Services, shown: dict[str, Any]) -> SettingsView:
     return SettingsView(**shown, can_restart=services.restart.is_there)
 
 
-async def _asked(work: Callable[[], T]) -> T:
+async def _do_on_disk(work: Callable[[], T]) -> T:
     """Do what blocks on the disk beside the loop; its refusals are told in both languages."""
     try:
         return await asyncio.to_thread(work)

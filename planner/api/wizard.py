@@ -91,18 +91,18 @@ def routes(services: Services) -> APIRouter:
     @router.post("/look", operation_id="wizard_look")
     async def look(order: WizardAsk | None = None) -> WizardView:
         """Find out what is plugged in, by what moves nothing; some ten seconds."""
-        return await _done(services, services.wizard.look())
+        return await _view_after(services, services.wizard.look())
 
     @router.post("/preset", operation_id="wizard_choose")
     async def choose(order: PresetChoice) -> WizardView:
         """Remember which preset is meant."""
-        return await _done(services, services.wizard.choose(order.preset))
+        return await _view_after(services, services.wizard.choose(order.preset))
 
     @router.post("/robot", operation_id="wizard_measure")
     async def measure(order: Measures) -> WizardView:
         """Write this home's robot.toml; one that is there stays."""
         base = order.model_dump(exclude={"name"})
-        return await _done(services, services.wizard.measure(order.name, base))
+        return await _view_after(services, services.wizard.measure(order.name, base))
 
     @router.post("/take", operation_id="wizard_take", status_code=202)
     async def take(order: WizardAsk | None = None) -> dict[str, str]:
@@ -123,7 +123,7 @@ async def _view(services: Services) -> WizardView:
     return WizardView(**await services.wizard.view(), can_take=services.take_robot.is_there)
 
 
-async def _done(services: Services, work: Any) -> WizardView:
+async def _view_after(services: Services, work: Any) -> WizardView:
     try:
         await work
     except WizardRefusal as refused:

@@ -860,6 +860,46 @@ export const en = {
   "set.budget.price.currency": "Currency",
   "set.budget.price.currency.why": "A word for you, like USD.",
 
+  "wizard.title": "Set up a robot of your own",
+  "wizard.steps": "Steps of the set-up",
+  "wizard.look": "Look what is plugged in",
+  "wizard.look.what":
+    "Plug in base, lidar and camera. Pons listens and asks only what moves nothing; about ten seconds.",
+  "wizard.look.do": "Look",
+  "wizard.look.doing": "Looking …",
+  "wizard.look.again": "Look again",
+  "wizard.found.none": "Nothing answered. You can go on and plug it in later.",
+  "wizard.choose": "Choose what it is built of",
+  "wizard.choose.fits": "parts of it were found",
+  "wizard.choose.do": "Take this one",
+  "wizard.measure": "Measure three numbers",
+  "wizard.measure.name": "Name of the robot",
+  "wizard.measure.name.why": "Small letters and digits.",
+  "wizard.measure.wheel_radius_m": "Wheel radius, m",
+  "wizard.measure.wheel_radius_m.why":
+    "Half of a driven wheel's width across, from above to the floor.",
+  "wizard.measure.wheel_separation_m": "Between the wheels, m",
+  "wizard.measure.wheel_separation_m.why":
+    "From the middle of the left tread to the middle of the right one.",
+  "wizard.measure.radius_m": "Radius of the robot, m",
+  "wizard.measure.radius_m.why":
+    "From the middle between the wheels to the point of the robot that is farthest away.",
+  "wizard.measure.do": "Write it down",
+  "wizard.try": "Try it, wheels off the ground",
+  "wizard.try.take":
+    "The simulated robot ends, and your robot comes into set-up. It takes some ten seconds; nothing drives.",
+  "wizard.try.do": "Change to my robot",
+  "wizard.try.command":
+    "Your robot is written down. End what runs in the terminal (Ctrl-C), and start it again:",
+  "wizard.try.here": "Go through the trial on this page.",
+  "wizard.map": "Map your home",
+  "wizard.map.what": "End what runs in the terminal (Ctrl-C), begin a map, and let it explore:",
+  "wizard.rooms": "Name your rooms",
+  "wizard.rooms.do": "Go to Places",
+  "wizard.taking": "Changing over …",
+  "op.key.where":
+    "It lies in operator.key in the robot's own folder; pons people pair, typed at the robot, prints a QR code that brings it to this telephone.",
+
   "error.planner_silent": "Pons does not answer.",
   "error.no_setup": "This robot is not in set-up any more.",
   "error.setup_silent": "Set-up does not answer: look at its log (logs/setup.log).",

@@ -90,7 +90,7 @@ export function KeyBox({ stays = false }: { stays?: boolean }) {
           onInput={(event) => stays && setKey(event.currentTarget.value)}
         />
         <small>
-          {t("op.key.why")} {t("op.key.short")}
+          {t("op.key.why")} {t("op.key.short")} {t("op.key.where")}
         </small>
       </label>
     </form>

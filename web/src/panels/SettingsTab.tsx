@@ -22,7 +22,9 @@ import {
   tryModel,
   type,
 } from "../state/settings";
+import { inSetup } from "../state/trial";
 import { toTeaching } from "./Tabs";
+import { Wizard } from "./Wizard";
 
 export function SettingsTab() {
   useEffect(() => {
@@ -46,6 +48,7 @@ export function SettingsTab() {
       {(isPending.value || isRestarting.value) && <NextStart />}
       {now !== null && GROUPS.map((group) => <GroupCard key={group} group={group} />)}
       {now !== null && <Places />}
+      {!inSetup.value && <Wizard />}
     </>
   );
 }

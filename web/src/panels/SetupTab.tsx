@@ -6,6 +6,7 @@ import { hasKey } from "../net/proof";
 import { answer, begin, busy, find, isMine, isTrying, leave, trial } from "../state/trial";
 import type { Port, Trial } from "../wire/types";
 import { KeyBox } from "./Deliberate";
+import { Wizard } from "./Wizard";
 
 const lifted = signal(false);
 
@@ -28,11 +29,17 @@ export function SetupTab() {
           </div>
         )}
       </section>
+      {isTrying.value ? null : <Wizard />}
+      {untouched(now) && <Plugged now={now} />}
       <Trying now={now} />
-      <Plugged now={now} />
+      {!untouched(now) && <Plugged now={now} />}
     </>
   );
 }
+
+/** Nothing was tried yet: then looking comes first. What a trial has begun stays where it stands. */
+const untouched = (now: Trial): boolean =>
+  now.tried === null && (now.phase === "idle" || now.phase === "finding");
 
 function Trying({ now }: { now: Trial }) {
   return (
