@@ -39,6 +39,7 @@ from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
+from planner.watching import Figures
 from processes.service import Service
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import PLAN_VIEW, Party
@@ -164,6 +165,11 @@ class Planner:
         for thing in (None,) if things is None else things:
             self.eyes.forget(thing)
 
+    @cached_property
+    def figures(self) -> Figures:
+        """Return the counters of this planner."""
+        return Figures(monotonic)
+
     def _list_spoken_names(self) -> list[str]:
         """Return the English names that may be said, the taught ones too."""
         return [name for place in self.memory.places for name in place.said_in_english]
@@ -187,6 +193,8 @@ class Planner:
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
         loop = self.goals.loop
         loop.hub.join(SpokenReplies(self.speaker))
+        loop.hub.join(self.figures)
+        self.budget.on_settled = self.figures.model_call
         if self.description.ros2 is not None:
             shown = self._session.publisher(PLAN_VIEW)
             places = self.memory

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
+    from planner.watching import Figures
     from wire import (
         Answer,
         FenceRequest,
@@ -262,6 +263,9 @@ class Services(Protocol):
 
     @property
     def budget(self) -> Budget: ...
+
+    @property
+    def figures(self) -> Figures: ...
 
     @property
     def history(self) -> GoalHistory: ...
