@@ -9,7 +9,7 @@ import signal
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from time import monotonic
+from time import monotonic, time_ns
 from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
@@ -37,9 +37,10 @@ from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.site.marks import marks_path
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
+from planner.traces import traces_of
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
-from planner.watching import Figures
+from planner.watching import PlannerFigures
 from processes.service import Service
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import PLAN_VIEW, Party
@@ -166,9 +167,9 @@ class Planner:
             self.eyes.forget(thing)
 
     @cached_property
-    def figures(self) -> Figures:
+    def figures(self) -> PlannerFigures:
         """Return the counters of this planner."""
-        return Figures(monotonic)
+        return PlannerFigures(monotonic)
 
     def _list_spoken_names(self) -> list[str]:
         """Return the English names that may be said, the taught ones too."""
@@ -194,7 +195,10 @@ class Planner:
         loop = self.goals.loop
         loop.hub.join(SpokenReplies(self.speaker))
         loop.hub.join(self.figures)
-        self.budget.on_settled = self.figures.model_call
+        self.budget.on_settled.append(self.figures.model_call)
+        if (traces := traces_of(self.description.id, time_ns)) is not None:
+            loop.hub.join(traces)
+            self.budget.on_settled.append(traces.model_call)
         if self.description.ros2 is not None:
             shown = self._session.publisher(PLAN_VIEW)
             places = self.memory

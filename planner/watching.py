@@ -26,7 +26,7 @@ MOST_GOALS = 256
 _ENDED = frozenset(state.value for state in ENDED)
 
 
-class Figures:
+class PlannerFigures:
     """Hold the counters and histograms of one planner."""
 
     def __init__(self, clock: Callable[[], float]) -> None:
@@ -86,7 +86,9 @@ class Figures:
     def close(self) -> None:
         """Hear no more: what was counted stays readable."""
 
-    def model_call(self, seconds: float, prompt_tokens: int, reply_tokens: int) -> None:
+    def model_call(
+        self, _goal_id: str, seconds: float, prompt_tokens: int, reply_tokens: int
+    ) -> None:
         """Count a call that was settled."""
         self._call_s.observe(seconds)
         self._tokens.labels("prompt").inc(prompt_tokens)
@@ -97,10 +99,10 @@ class Figures:
         goal_id, state = goal["id"], goal["state"]
         before = self._known.pop(goal_id, None)
         self._known[goal_id] = state
-        _bound(self._known)
+        _drop_oldest(self._known)
         if state == "running" and before != "running":
             self._planned_s[goal_id] = self._clock()
-            _bound(self._planned_s)
+            _drop_oldest(self._planned_s)
         if state not in _ENDED or before in _ENDED:
             return
         self._planned_s.pop(goal_id, None)
@@ -115,6 +117,6 @@ class Figures:
             self._rows.labels(event["detail"].partition(" ")[0].partition(".")[0]).inc()
 
 
-def _bound(kept: OrderedDict[str, Any]) -> None:
+def _drop_oldest(kept: OrderedDict[str, Any]) -> None:
     while len(kept) > MOST_GOALS:
         kept.popitem(last=False)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
-    from planner.watching import Figures
+    from planner.watching import PlannerFigures
     from wire import (
         Answer,
         FenceRequest,
@@ -265,7 +265,7 @@ class Services(Protocol):
     def budget(self) -> Budget: ...
 
     @property
-    def figures(self) -> Figures: ...
+    def figures(self) -> PlannerFigures: ...
 
     @property
     def history(self) -> GoalHistory: ...

@@ -67,8 +67,8 @@ class Purse:
         ledger.remember(self._day)
         self._under_way = self._calls = self._idle = 0
         self._refused: BudgetRefusal | None = None
-        self.on_settled: Callable[[float, int, int], None] | None = None
-        """Is told each call that ended: seconds, tokens sent, tokens of the reply."""
+        self.on_settled: list[Callable[[str, float, int, int], None]] = []
+        """Are told each call that ended: its goal, seconds, tokens sent, tokens of the reply."""
         self.changes = 0
         """Rises with every change of the meter, so that who shows it knows when to look."""
 
@@ -111,8 +111,8 @@ class Purse:
         self._under_way -= 1
         self.changes += 1
         self._ledger.settle(call.day, call.goal, came_to - call.counted)
-        if self.on_settled is not None:
-            self.on_settled(seconds, prompt, reply)
+        for told in self.on_settled:
+            told(call.goal, seconds, prompt, reply)
 
     def usage(self, goal: str | None = None) -> Usage:
         """Return the meter as of now; what another program spends is seen at the next look."""

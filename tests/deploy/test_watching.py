@@ -1,4 +1,4 @@
-"""Alert rules fire when they should, and rules and dashboard name figures that the planner gives."""
+"""Alert rules fire when they should; rules and dashboard name figures that the planner gives."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_the_rules_fire_when_they_should() -> None:
 def given() -> set[str]:
     """Return the names of the figures that a planner gives, and those of its series' families."""
     services = FakeServices()
-    services.figures.model_call(1.0, 2, 3)
+    services.figures.model_call("g1", 1.0, 2, 3)
     text = client_of(services).get("/metrics").text
     families = set(re.findall(r"^# TYPE (\S+)", text, re.MULTILINE))
     return families | {_OF_SERIES.sub("", name) for name in families} | AGES

@@ -6,7 +6,7 @@ from typing import Any
 
 from prometheus_client import generate_latest
 
-from planner.watching import MOST_GOALS, Figures
+from planner.watching import MOST_GOALS, PlannerFigures
 
 
 def goal(state: str, goal_id: str = "g1", **outcome: Any) -> tuple[int, dict[str, Any]]:
@@ -14,12 +14,12 @@ def goal(state: str, goal_id: str = "g1", **outcome: Any) -> tuple[int, dict[str
     return 1, {"type": "goal", "goal": told}
 
 
-def value(figures: Figures, name: str, **labels: str) -> float | None:
+def value(figures: PlannerFigures, name: str, **labels: str) -> float | None:
     return figures.registry.get_sample_value(name, labels)
 
 
 def test_an_end_is_counted_once_with_its_code() -> None:
-    figures = Figures(lambda: 0.0)
+    figures = PlannerFigures(lambda: 0.0)
     for _ in range(3):
         figures.offer(goal("succeeded", code="arrived", seconds=12.0))
     figures.offer(goal("failed", "g2"))
@@ -30,7 +30,7 @@ def test_an_end_is_counted_once_with_its_code() -> None:
 
 def test_the_wait_for_the_first_waypoint_is_told_from_acceptance_and_from_the_plan() -> None:
     now = [10.0]
-    figures = Figures(lambda: now[0])
+    figures = PlannerFigures(lambda: now[0])
     figures.offer(goal("planning"))
     figures.offer(goal("running"))
     now[0] = 10.25
@@ -43,7 +43,7 @@ def test_the_wait_for_the_first_waypoint_is_told_from_acceptance_and_from_the_pl
 
 
 def test_rows_are_counted_by_kind() -> None:
-    figures = Figures(lambda: 0.0)
+    figures = PlannerFigures(lambda: 0.0)
     told = (("row_up", "POSE_LOST.0 none"), ("row_down", "POSE_LOST.0"), ("row_up", "X"))
     for code, detail in told:
         figures.offer((1, {"type": "bridge", "event": {"code": code, "detail": detail}}))
@@ -53,15 +53,15 @@ def test_rows_are_counted_by_kind() -> None:
 
 
 def test_a_models_calls_are_counted_with_their_tokens() -> None:
-    figures = Figures(lambda: 0.0)
-    figures.model_call(1.5, 1_300, 80)
+    figures = PlannerFigures(lambda: 0.0)
+    figures.model_call("g1", 1.5, 1_300, 80)
     assert value(figures, "pons_model_call_seconds_count") == 1.0
     assert value(figures, "pons_model_tokens_total", way="prompt") == 1_300.0
     assert value(figures, "pons_model_tokens_total", way="reply") == 80.0
 
 
 def test_what_is_remembered_is_bounded_and_other_events_are_passed() -> None:
-    figures = Figures(lambda: 0.0)
+    figures = PlannerFigures(lambda: 0.0)
     for number in range(3 * MOST_GOALS):
         figures.offer(goal("running", f"g{number}"))
     figures.offer((1, {"type": "progress", "goal": "g1"}))

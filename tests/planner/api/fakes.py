@@ -36,7 +36,7 @@ from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.state_database import StateDatabase
 from planner.voice import Recognition, Sound, StopListener, VoiceAbilities, VoiceFailure
-from planner.watching import Figures
+from planner.watching import PlannerFigures
 from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
 from tests.wire.examples import STATUS
 from wire import (
@@ -375,7 +375,7 @@ class FakeServices:
         self.speaker = FakeSpeech()
         self.voice = VoiceAbilities()
         self.budget = FakeBudget()
-        self.figures = Figures(lambda: 0.0)
+        self.figures = PlannerFigures(lambda: 0.0)
         self.history = GoalHistory.in_home(HOME)
         self.replies = ReplyCollector(0)
         self.eyes = FakeEyes()
