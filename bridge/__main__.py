@@ -38,6 +38,7 @@ from bridge.realtime import (
 )
 from bridge.recording.recorder import Recorder
 from bridge.warmup import warm_up
+from processes.log_lines import begin_log
 from processes.service import Service
 from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
@@ -57,7 +58,7 @@ EXIT_AGAIN = 3
 
 def main(arguments: list[str] | None = None) -> int:
     """Return the exit status."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    begin_log()
     options = _options(arguments)
     try:
         return _serve(options)

@@ -20,6 +20,7 @@ from pathlib import Path
 
 from localization.node import LocalizerNode, StandInNode, run_periodically
 from localization.standin import StandIn
+from processes.log_lines import begin_log
 from processes.priority import set_fifo
 from wire import ConfigError, RobotDescription, load_robot
 from wire.keys import Party
@@ -126,7 +127,7 @@ def _serve_mapping(
 
 def main(arguments: list[str] | None = None) -> int:
     """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    begin_log()
     try:
         _serve(_options(arguments))
     except ConfigError as error:

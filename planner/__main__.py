@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import logging
 import os
 import signal
 import sys
@@ -20,6 +19,7 @@ from planner.api.access import LOOPBACK_NAMES, is_loopback
 from planner.api.connections import protocol
 from planner.app import Planner, PlannerPaths, application
 from planner.orders.zone import set_local_zone
+from processes.log_lines import begin_log
 from processes.priority import add_nice
 from processes.standby import Standby
 from wire import EXIT_SET_UP, ConfigError
@@ -37,7 +37,7 @@ MIN_TOKEN_CHARACTERS = 16
 
 def main(arguments: list[str] | None = None) -> int:
     """Serve until told to end; 1 home unwritable at present, 2 refused, 4 for set-up."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    begin_log()
     given = _options(arguments)
     try:
         secure = tls.context(given.tls_cert, given.tls_key)

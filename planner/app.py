@@ -9,7 +9,7 @@ import signal
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from time import monotonic
+from time import monotonic, time_ns
 from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
@@ -42,8 +42,10 @@ from planner.skill_files.folder import SkillFolder
 from planner.skill_files.keep import SkillKeeper
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import StateDatabase
+from planner.traces import traces_of
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
+from planner.watching import PlannerFigures
 from processes.service import Service, is_supervised
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import PLAN_VIEW, Party
@@ -219,6 +221,11 @@ class Planner:
         for thing in (None,) if things is None else things:
             self.eyes.forget(thing)
 
+    @cached_property
+    def figures(self) -> PlannerFigures:
+        """Return the counters of this planner."""
+        return PlannerFigures(monotonic)
+
     def _list_spoken_names(self) -> list[str]:
         """Return the English names that may be said, the taught ones too."""
         return [name for place in self.memory.places for name in place.said_in_english]
@@ -242,6 +249,11 @@ class Planner:
         await self.goals.start(freeze=True, rules=Rules(**self.settings.mission.model_dump()))
         loop = self.goals.loop
         loop.hub.join(SpokenReplies(self.speaker))
+        loop.hub.join(self.figures)
+        self.budget.on_settled.append(self.figures.model_call)
+        if (traces := traces_of(self.description.id, time_ns)) is not None:
+            loop.hub.join(traces)
+            self.budget.on_settled.append(traces.model_call)
         if self.description.ros2 is not None:
             shown = self._session.publisher(PLAN_VIEW)
             places = self.memory

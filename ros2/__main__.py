@@ -17,6 +17,7 @@ import sys
 import threading
 from pathlib import Path
 
+from processes.log_lines import begin_log
 from processes.priority import set_fifo
 from ros2.robot_link import RobotLink
 from ros2.robot_process import RosRobotProcess
@@ -92,7 +93,7 @@ def relay_key(home: Path) -> bytes:
 
 def main(arguments: list[str] | None = None) -> int:
     """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    begin_log()
     try:
         _serve(_options(arguments))
     except ConfigError as error:

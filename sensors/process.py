@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import argparse
 import gc
-import logging
 import os
 import signal
 import sys
@@ -15,6 +14,7 @@ import threading
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from processes.log_lines import begin_log
 from wire import ConfigError, load_robot
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def run_sensor(
         arguments: of the command line; None takes the process's own.
         port: it hangs on a serial line, for which a twin may give another.
     """
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    begin_log()
     parser = argparse.ArgumentParser(prog=f"python -m sensors.{name}", description=about)
     parser.add_argument("--robot", type=Path, required=True, help="robot.toml")
     parser.add_argument("--home", type=Path, help="$PONS_HOME (default: ./.pons)")

@@ -21,6 +21,7 @@ import threading
 from functools import partial
 from pathlib import Path
 
+from processes.log_lines import begin_log
 from processes.priority import set_fifo
 from sim.domain import load_domain
 from sim.node import SimNode
@@ -109,7 +110,7 @@ def _serve(options: argparse.Namespace) -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Return 0 after a clean end, 1 where its home can't be written at present, 2 when refused."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s %(levelname)s %(message)s")
+    begin_log()
     try:
         _serve(_options(arguments))
     except ConfigError as error:

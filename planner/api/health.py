@@ -42,7 +42,8 @@ def routes(services: Services) -> APIRouter:
     @router.get("/metrics", operation_id="metrics", response_class=PlainTextResponse)
     async def metrics() -> Response:
         """Give the figures in Prometheus' text format."""
-        return Response(generate_latest(registry), media_type=CONTENT_TYPE_LATEST)
+        told = generate_latest(registry) + generate_latest(services.figures.registry)
+        return Response(told, media_type=CONTENT_TYPE_LATEST)
 
     return router
 

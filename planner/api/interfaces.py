@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.skill_files.folder import SkillFolder
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
+    from planner.watching import PlannerFigures
     from wire import (
         Answer,
         FenceRequest,
@@ -290,6 +291,9 @@ class Services(Protocol):
 
     @property
     def budget(self) -> Budget: ...
+
+    @property
+    def figures(self) -> PlannerFigures: ...
 
     @property
     def history(self) -> GoalHistory: ...

@@ -21,6 +21,8 @@ from planner.language.catalogue import say
 from planner.plan import say_same
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from planner.budget.ledger import Judge, Ledger
     from planner.settings import BudgetSettings
 
@@ -65,6 +67,8 @@ class Purse:
         ledger.remember(self._day)
         self._under_way = self._calls = self._idle = 0
         self._refused: BudgetRefusal | None = None
+        self.on_settled: list[Callable[[str, float, int, int], None]] = []
+        """Are told each call that ended: its goal, seconds, tokens sent, tokens of the reply."""
         self.changes = 0
         """Rises with every change of the meter, so that who shows it knows when to look."""
 
@@ -112,6 +116,8 @@ class Purse:
         self._under_way -= 1
         self.changes += 1
         self._ledger.settle(call.day, call.goal, came_to - call.counted)
+        for told in self.on_settled:
+            told(call.goal, seconds, prompt, reply)
 
     def usage(self, goal: str | None = None) -> Usage:
         """Return the meter as of now; what another program spends is seen at the next look."""

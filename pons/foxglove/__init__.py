@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import asyncio
 import json
-import logging
 import signal
 import sys
 from typing import TYPE_CHECKING
 
 from pons.terminal import pick
+from processes.log_lines import begin_log
 
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
@@ -38,7 +38,7 @@ def run(settings: LaunchSettings, act: str | None, port: int) -> int:
         return EXIT_DONE
     from wire import load_robot
 
-    logging.basicConfig(format="%(asctime)s %(name)s: %(message)s", level=logging.INFO)
+    begin_log()
     try:
         from pons.foxglove.live import LiveView
     except ModuleNotFoundError as missing:

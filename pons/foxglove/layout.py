@@ -4,11 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
-from pons.foxglove.topics import Topic
+from pons.foxglove.topics import LiveTopic
 
 _SPEEDS = ("asked_v_mps", "sent_v_mps", "measured_v_mps", "limit_v_mps")
 _TICKS = ("late_p50_ms", "late_max_ms", "step_max_ms")
-_DRAWN = (Topic.SCAN, Topic.POSE, Topic.ROUTE, Topic.MAP, Topic.PLACES, Topic.FENCE, Topic.OBJECTS)
+_DRAWN = (
+    LiveTopic.SCAN,
+    LiveTopic.POSE,
+    LiveTopic.ROUTE,
+    LiveTopic.MAP,
+    LiveTopic.PLACES,
+    LiveTopic.FENCE,
+    LiveTopic.OBJECTS,
+)
 
 
 def layout() -> dict[str, Any]:
@@ -23,14 +31,14 @@ def layout() -> dict[str, Any]:
             },
             "Image!camera": {
                 "imageMode": {
-                    "imageTopic": Topic.CAMERA.value,
-                    "annotations": {Topic.BOXES.value: {"visible": True}},
+                    "imageTopic": LiveTopic.CAMERA.value,
+                    "annotations": {LiveTopic.BOXES.value: {"visible": True}},
                 }
             },
-            "Plot!speed": _plot("Speed [m/s]", Topic.SPEEDS, _SPEEDS),
-            "Plot!ticks": _plot("Tick lateness [ms]", Topic.TICKS, _TICKS),
-            "RawMessages!rows": {"topicPath": Topic.ROWS.value},
-            "RosOut!log": {"searchTerms": [], "minLogLevel": 1, "topicToRender": Topic.LOG.value},
+            "Plot!speed": _plot("Speed [m/s]", LiveTopic.SPEEDS, _SPEEDS),
+            "Plot!ticks": _plot("Tick lateness [ms]", LiveTopic.TICKS, _TICKS),
+            "RawMessages!rows": {"topicPath": LiveTopic.ROWS.value},
+            "RosOut!log": {"minLogLevel": 1, "topicToRender": LiveTopic.LOG.value},
         },
         "globalVariables": {},
         "userNodes": {},
@@ -57,7 +65,7 @@ def layout() -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _plot(title: str, topic: Topic, fields: tuple[str, ...]) -> dict[str, Any]:
+def _plot(title: str, topic: LiveTopic, fields: tuple[str, ...]) -> dict[str, Any]:
     paths = [
         {"value": f"{topic.value}.{field}", "enabled": True, "timestampMethod": "receiveTime",
          "label": field}

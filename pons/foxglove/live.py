@@ -19,7 +19,7 @@ from foxglove.websocket import ServerListener
 
 from pons.event_socket import follow_events
 from pons.foxglove import scene
-from pons.foxglove.topics import Topic
+from pons.foxglove.topics import LiveTopic
 from pons.http import call
 from wire import Event, Mode, Status
 from wire.codec import Image
@@ -40,7 +40,7 @@ PERIOD_S = 0.05
 """As often as the bridge says its status; a scan comes five times more rarely or so."""
 MOST_WAITING = 64
 """Messages that wait for a viewer: three seconds of statuses, then the oldest go."""
-STILL = (Topic.MAP, Topic.PLACES, Topic.FENCE, Topic.ROUTE, Topic.OBJECTS)
+STILL = (LiveTopic.MAP, LiveTopic.PLACES, LiveTopic.FENCE, LiveTopic.ROUTE, LiveTopic.OBJECTS)
 """Told when they change, and again to each that begins to watch."""
 _WARNED = frozenset({Mode.FAULT, Mode.ESTOPPED, Mode.STOPPING})
 
@@ -65,7 +65,7 @@ class Watchers(ServerListener):
         with self._lock:
             self._watching[channel.topic] = max(0, self._watching.get(channel.topic, 0) - 1)
 
-    def watches(self, *topics: Topic) -> bool:
+    def watches(self, *topics: LiveTopic) -> bool:
         """Tell whether somebody watches one of these."""
         return any(self._watching.get(topic) for topic in topics)
 
@@ -84,25 +84,27 @@ class LiveView:
         self._context = foxglove.Context()
         self._watchers = Watchers()
         context = self._context
-        self._typed: dict[Topic, Any] = {
-            Topic.SCAN: channels.LaserScanChannel(Topic.SCAN, context=context),
-            Topic.TRANSFORMS: channels.FrameTransformsChannel(Topic.TRANSFORMS, context=context),
-            Topic.POSE: channels.PoseInFrameChannel(Topic.POSE, context=context),
-            Topic.ROUTE: channels.PosesInFrameChannel(Topic.ROUTE, context=context),
-            Topic.MAP: channels.GridChannel(Topic.MAP, context=context),
-            Topic.CAMERA: channels.CompressedImageChannel(Topic.CAMERA, context=context),
-            Topic.BOXES: channels.ImageAnnotationsChannel(Topic.BOXES, context=context),
-            Topic.LOG: channels.LogChannel(Topic.LOG, context=context),
+        self._typed: dict[LiveTopic, Any] = {
+            LiveTopic.SCAN: channels.LaserScanChannel(LiveTopic.SCAN, context=context),
+            LiveTopic.TRANSFORMS: channels.FrameTransformsChannel(
+                LiveTopic.TRANSFORMS, context=context
+            ),
+            LiveTopic.POSE: channels.PoseInFrameChannel(LiveTopic.POSE, context=context),
+            LiveTopic.ROUTE: channels.PosesInFrameChannel(LiveTopic.ROUTE, context=context),
+            LiveTopic.MAP: channels.GridChannel(LiveTopic.MAP, context=context),
+            LiveTopic.CAMERA: channels.CompressedImageChannel(LiveTopic.CAMERA, context=context),
+            LiveTopic.BOXES: channels.ImageAnnotationsChannel(LiveTopic.BOXES, context=context),
+            LiveTopic.LOG: channels.LogChannel(LiveTopic.LOG, context=context),
             **{
                 topic: channels.SceneUpdateChannel(topic, context=context)
-                for topic in (Topic.PLACES, Topic.FENCE, Topic.OBJECTS)
+                for topic in (LiveTopic.PLACES, LiveTopic.FENCE, LiveTopic.OBJECTS)
             },
             **{
                 topic: foxglove.Channel(topic, message_encoding="json", context=context)
-                for topic in (Topic.ROWS, Topic.SPEEDS, Topic.TICKS)
+                for topic in (LiveTopic.ROWS, LiveTopic.SPEEDS, LiveTopic.TICKS)
             },
         }
-        self._still: dict[Topic, Any] = {}
+        self._still: dict[LiveTopic, Any] = {}
         self._things: dict[str, Any] = {}
 
     async def serve(self, port: int) -> None:
@@ -135,16 +137,16 @@ class LiveView:
             while True:
                 await asyncio.sleep(PERIOD_S)
                 for topic in self._watchers.take_begun():
-                    if (kept := self._still.get(Topic(topic))) is not None:
-                        self._typed[Topic(topic)].log(kept)
+                    if (kept := self._still.get(LiveTopic(topic))) is not None:
+                        self._typed[LiveTopic(topic)].log(kept)
                 if (status := statuses.newest()) is not None:
                     self._show_status(status)
-                if self._watchers.watches(Topic.SCAN) and (found := scans.newest()) is not None:
+                if self._watchers.watches(LiveTopic.SCAN) and (found := scans.newest()) is not None:
                     self._show_scan(found)
                 for event in events.drain().items:
                     if isinstance(event, Event):
                         self._show_event(event)
-                if self._watchers.watches(Topic.CAMERA) is (pictures is None):
+                if self._watchers.watches(LiveTopic.CAMERA) is (pictures is None):
                     if pictures is not None:  # the camera rests while nobody looks
                         pictures.close()
                         pictures = None
@@ -155,26 +157,28 @@ class LiveView:
 
     def _show_status(self, status: Status) -> None:
         watches = self._watchers.watches
-        if watches(Topic.TRANSFORMS):
-            self._typed[Topic.TRANSFORMS].log(scene.transforms(status))
-        if watches(Topic.POSE) and (here := scene.pose(status)) is not None:
-            self._typed[Topic.POSE].log(here)
+        if watches(LiveTopic.TRANSFORMS):
+            self._typed[LiveTopic.TRANSFORMS].log(scene.transforms(status))
+        if watches(LiveTopic.POSE) and (here := scene.pose(status)) is not None:
+            self._typed[LiveTopic.POSE].log(here)
         for topic, make in (
-            (Topic.SPEEDS, scene.speeds), (Topic.TICKS, scene.ticks), (Topic.ROWS, scene.rows),
-        ):  # fmt: skip
+            (LiveTopic.SPEEDS, scene.speeds),
+            (LiveTopic.TICKS, scene.ticks),
+            (LiveTopic.ROWS, scene.rows),
+        ):
             if watches(topic):
                 self._typed[topic].log(make(status))
 
     def _show_scan(self, found: Scan) -> None:
-        self._typed[Topic.SCAN].log(scene.scan(found, self._robot.lidar))
+        self._typed[LiveTopic.SCAN].log(scene.scan(found, self._robot.lidar))
 
     def _show_event(self, event: Event) -> None:
         level = fox.LogLevel.Warning if event.mode in _WARNED else fox.LogLevel.Info
         text = f"{event.code} {event.detail}".rstrip()
-        self._typed[Topic.LOG].log(fox.Log(level=level, message=text, name="bridge"))
+        self._typed[LiveTopic.LOG].log(fox.Log(level=level, message=text, name="bridge"))
 
     def _show_picture(self, picture: Image) -> None:
-        self._typed[Topic.CAMERA].log(
+        self._typed[LiveTopic.CAMERA].log(
             fox.CompressedImage(frame_id="camera", data=picture.data, format="jpeg")
         )
 
@@ -185,24 +189,24 @@ class LiveView:
         if kind in ("snapshot", "places"):
             await self._read_the_map()
         if kind in ("snapshot", "path"):
-            self._keep(Topic.ROUTE, scene.route(frame["path"]))
+            self._keep(LiveTopic.ROUTE, scene.route(frame["path"]))
         if kind == "snapshot":
             told = await asyncio.to_thread(call, self._settings, "GET", "/v1/objects")
             self._things = {thing["id"]: thing for thing in told["objects"]}
         if kind in ("snapshot", "sight"):
             sight = frame["sight"]
             self._things |= {thing["id"]: thing for thing in sight["things"]}
-            self._keep(Topic.OBJECTS, scene.things(self._things.values()))
-            if self._watchers.watches(Topic.BOXES):
-                self._typed[Topic.BOXES].log(scene.boxes(sight["look"]))
+            self._keep(LiveTopic.OBJECTS, scene.things(self._things.values()))
+            if self._watchers.watches(LiveTopic.BOXES):
+                self._typed[LiveTopic.BOXES].log(scene.boxes(sight["look"]))
 
     async def _read_the_map(self) -> None:
         told = await asyncio.to_thread(call, self._settings, "GET", "/v1/map")
         places = await asyncio.to_thread(call, self._settings, "GET", "/v1/places")
-        self._keep(Topic.MAP, scene.grid(told))
-        self._keep(Topic.FENCE, scene.fence(told["fence"]))
-        self._keep(Topic.PLACES, scene.places(places["places"]))
+        self._keep(LiveTopic.MAP, scene.grid(told))
+        self._keep(LiveTopic.FENCE, scene.fence(told["fence"]))
+        self._keep(LiveTopic.PLACES, scene.places(places["places"]))
 
-    def _keep(self, topic: Topic, message: Any) -> None:
+    def _keep(self, topic: LiveTopic, message: Any) -> None:
         self._still[topic] = message
         self._typed[topic].log(message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 
 
-class Topic(StrEnum):
+class LiveTopic(StrEnum):
     """Name one topic."""
 
     SCAN = "/scan"

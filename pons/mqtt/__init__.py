@@ -6,7 +6,6 @@ Needs the extra ``mqtt`` (aiomqtt); nothing else of ours imports this package's 
 from __future__ import annotations
 
 import asyncio
-import logging
 import os
 import signal
 import sys
@@ -14,6 +13,7 @@ import tomllib
 from typing import TYPE_CHECKING
 
 from pons.terminal import pick
+from processes.log_lines import begin_log
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -45,7 +45,7 @@ def run(settings: LaunchSettings) -> int:
     from planner.settings import load_settings
     from wire import ConfigError, load_robot
 
-    logging.basicConfig(format="%(asctime)s %(name)s: %(message)s", level=logging.INFO)
+    begin_log()
     try:
         chosen = load_settings(settings.home, os.environ).mqtt
         if chosen is None:

@@ -41,6 +41,7 @@ from planner.site import FenceProposals, KnownPlaces, Site
 from planner.skill_files.folder import SkillFolder
 from planner.state_database import StateDatabase
 from planner.voice import Recognition, Sound, StopListener, VoiceAbilities, VoiceFailure
+from planner.watching import PlannerFigures
 from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
 from tests.wire.examples import STATUS
 from wire import (
@@ -387,6 +388,7 @@ class FakeServices:
         self.speaker = FakeSpeech()
         self.voice = VoiceAbilities()
         self.budget = FakeBudget()
+        self.figures = PlannerFigures(lambda: 0.0)
         self.history = GoalHistory.in_home(HOME)
         self.replies = ReplyCollector(0)
         self.eyes = FakeEyes()

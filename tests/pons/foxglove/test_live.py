@@ -19,7 +19,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from pons.foxglove import scene
 from pons.foxglove.layout import layout
 from pons.foxglove.live import LiveView
-from pons.foxglove.topics import Topic
+from pons.foxglove.topics import LiveTopic
 from pons.robot_processes import free_port
 from pons.settings import CHECKOUT, LaunchSettings
 from tests.pons.standing_bridge import StandingBridge
@@ -28,7 +28,13 @@ from wire import Pose2, Status, load_robot
 from wire.sensors import Scan
 
 LIMIT_S = 30.0
-FROM_THE_BRIDGE = {Topic.TRANSFORMS, Topic.POSE, Topic.SPEEDS, Topic.TICKS, Topic.ROWS}
+FROM_THE_BRIDGE = {
+    LiveTopic.TRANSFORMS,
+    LiveTopic.POSE,
+    LiveTopic.SPEEDS,
+    LiveTopic.TICKS,
+    LiveTopic.ROWS,
+}
 
 
 @asynccontextmanager
@@ -75,7 +81,7 @@ def test_a_window_is_shown_what_the_bridge_says_without_a_planner() -> None:
     async def story() -> None:
         seen: Counter[str] = Counter()
         async with shown() as port, viewer(port) as (socket, topics), asyncio.timeout(LIMIT_S):
-            assert set(topics.values()) == set(Topic)
+            assert set(topics.values()) == set(LiveTopic)
             async for message in socket:
                 if isinstance(message, bytes):
                     _, number = struct.unpack_from("<BI", message, 0)
@@ -94,7 +100,7 @@ def test_a_window_that_never_reads_stands_in_nobodys_way() -> None:
                 async for message in socket:
                     if isinstance(message, bytes):
                         told[topics[struct.unpack_from("<BI", message, 0)[1]]] += 1
-                    if told[Topic.SPEEDS] >= 20:
+                    if told[LiveTopic.SPEEDS] >= 20:
                         return
 
     asyncio.run(story())
@@ -103,7 +109,14 @@ def test_a_window_that_never_reads_stands_in_nobodys_way() -> None:
 def test_the_layout_names_topics_and_panels_that_are_there() -> None:
     made = layout()
     text = json.dumps(made)
-    for topic in (Topic.SCAN, Topic.MAP, Topic.ROUTE, Topic.CAMERA, Topic.BOXES, Topic.LOG):
+    for topic in (
+        LiveTopic.SCAN,
+        LiveTopic.MAP,
+        LiveTopic.ROUTE,
+        LiveTopic.CAMERA,
+        LiveTopic.BOXES,
+        LiveTopic.LOG,
+    ):
         assert f'"{topic}"' in text
 
     def panels(node: str | dict[str, Any]) -> list[str]:
@@ -115,7 +128,7 @@ def test_the_layout_names_topics_and_panels_that_are_there() -> None:
     for plot in (config for name, config in made["configById"].items() if name[:4] == "Plot"):
         for path in plot["paths"]:
             topic, _, field = path["value"].partition(".")
-            make = scene.speeds if topic == Topic.SPEEDS else scene.ticks
+            make = scene.speeds if topic == LiveTopic.SPEEDS else scene.ticks
             assert field in make(status())
 
 
