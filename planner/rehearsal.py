@@ -25,16 +25,14 @@ from planner.plan import (
     RUNNABLE,
     Bilingual,
     Code,
-    StepPlan,
     StepRecord,
     StepRole,
     StepState,
     children_of,
-    holds_call,
     plan_record,
 )
 from planner.plan.base import Frozen
-from planner.skill_files.calls import SkillFailed, SkillScene, unfold
+from planner.skill_files.calls import SkillFailure, SkillScene, unfold
 from wire import Pose2
 from wire.geometry import wrap
 
@@ -194,14 +192,12 @@ class Rehearser:
             runnable=RUNNABLE | self._site.vocabulary.calls,
         )
         plan = (await OfflineBrain().think(request)).plan
-        if isinstance(plan, StepPlan) and holds_call(plan.steps):
-            tongue = language or parse(text).language
-            scene = SkillScene(request.vocabulary, tongue, request.room)
-            try:
-                plan = (await unfold(plan, scene)).plan
-            except SkillFailed as failed:
-                said = failed.problem.outcome(failed.name).message
-                raise RehearsalError("rehearsal_no_plan", str(failed), said) from None
+        tongue = language or parse(text).language
+        try:
+            plan = (await unfold(plan, SkillScene(request.vocabulary, tongue, request.room))).plan
+        except SkillFailure as failed:
+            said = failed.outcome.message
+            raise RehearsalError("rehearsal_no_plan", str(failed), said) from None
         return plan_record(plan)
 
     async def of_plan(self, plan: PlanRecord | None) -> Rehearsal:

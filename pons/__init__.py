@@ -8,9 +8,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pons.client import Goal, Place, Robot, RobotError, RobotStatus, RobotUnreachable
+    from pons.client import GoalReport, PlaceReport, RobotError, RobotStatus, RobotUnreachable
+    from pons.client import RobotClient as Robot
 
-__all__ = ["Goal", "Place", "Robot", "RobotError", "RobotStatus", "RobotUnreachable"]
+__all__ = ["GoalReport", "PlaceReport", "Robot", "RobotError", "RobotStatus", "RobotUnreachable"]
 
 
 def __getattr__(name: str) -> object:
@@ -18,4 +19,4 @@ def __getattr__(name: str) -> object:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib import import_module
 
-    return getattr(import_module("pons.client"), name)
+    return getattr(import_module("pons.client"), "RobotClient" if name == "Robot" else name)

@@ -44,7 +44,7 @@ class RobotUnreachable(RobotError):
 
 
 @dataclass(frozen=True, slots=True)
-class Goal:
+class GoalReport:
     """Show one order: its state, and what the robot says of it."""
 
     id: str
@@ -63,7 +63,7 @@ class Goal:
     """The kinds of its steps."""
 
     @property
-    def ended(self) -> bool:
+    def has_ended(self) -> bool:
         """Return whether it is over."""
         return self.state in ENDED
 
@@ -79,7 +79,7 @@ class Goal:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PlaceReport:
     """Show a room or place that an order may name."""
 
     id: str
@@ -107,8 +107,8 @@ class RobotStatus:
     """The bridge's rows that are up, by name."""
 
 
-class Robot:
-    """Talk to one planner: the robot of this ``$PONS_HOME``, or the one at ``url``."""
+class RobotClient:
+    """Be ``pons.Robot``: talk to the planner of this ``$PONS_HOME``, or to the one at ``url``."""
 
     def __init__(
         self,
@@ -154,7 +154,7 @@ class Robot:
         """Close the connection. The robot goes on."""
         self._client.close()
 
-    def say(self, text: str, *, replace: bool = False, confirm: bool = False) -> Goal:
+    def say(self, text: str, *, replace: bool = False, confirm: bool = False) -> GoalReport:
         """Give an order in words and return it, usually still in planning.
 
         Args:
@@ -168,11 +168,11 @@ class Robot:
         body = {"text": text, "source": SOURCE, "replace": replace, "confirm": confirm}
         return _goal(self._ask("POST", "/v1/goals", body))
 
-    def order(self, text: str, *, limit_s: float = 600.0) -> Goal:
+    def order(self, text: str, *, limit_s: float = 600.0) -> GoalReport:
         """Give an order, and return it when it has ended or asks; raises as ``say`` does."""
         return self.wait(self.say(text), limit_s=limit_s)
 
-    def wait(self, goal: Goal | str, *, limit_s: float = 600.0) -> Goal:
+    def wait(self, goal: GoalReport | str, *, limit_s: float = 600.0) -> GoalReport:
         """Return a goal when it has ended, asks something, or the time [s] is up.
 
         Raises:
@@ -181,20 +181,20 @@ class Robot:
         until_s = self._clock() + limit_s
         while True:
             now = self.goal(goal)
-            if now.ended or now.asks or self._clock() >= until_s:
+            if now.has_ended or now.asks or self._clock() >= until_s:
                 return now
             self._sleep(POLL_S)
 
-    def goal(self, goal: Goal | str) -> Goal:
+    def goal(self, goal: GoalReport | str) -> GoalReport:
         """Return a goal as it is now."""
         return _goal(self._ask("GET", f"/v1/goals/{_id(goal)}"))
 
-    def answer(self, goal: Goal | str, text: str) -> Goal:
+    def answer(self, goal: GoalReport | str, text: str) -> GoalReport:
         """Answer the question of a goal: one of its ``options``, a yes or no, or words."""
         body = {"text": text, "source": SOURCE}
         return _goal(self._ask("POST", f"/v1/goals/{_id(goal)}/answer", body))
 
-    def cancel(self, goal: Goal | str) -> Goal:
+    def cancel(self, goal: GoalReport | str) -> GoalReport:
         """End a goal; the robot stands."""
         return _goal(self._ask("POST", f"/v1/goals/{_id(goal)}/cancel", {}))
 
@@ -217,11 +217,13 @@ class Robot:
             faults=tuple(row["row"] for row in status.get("rows") or ()),
         )
 
-    def places(self) -> tuple[Place, ...]:
+    def places(self) -> tuple[PlaceReport, ...]:
         """Return the rooms and places that an order may name."""
         told = self._ask("GET", "/v1/places")["places"]
         return tuple(
-            Place(p["id"], p["name"]["en"], p["name"]["zh"], p["pose"]["x_m"], p["pose"]["y_m"])
+            PlaceReport(
+                p["id"], p["name"]["en"], p["name"]["zh"], p["pose"]["x_m"], p["pose"]["y_m"]
+            )
             for p in told
         )
 
@@ -250,14 +252,14 @@ def _trust(settings: LaunchSettings, authority: Path | None) -> Any:
     return ssl.create_default_context(cafile=str(file)) if file.is_file() else True
 
 
-def _id(goal: Goal | str) -> str:
-    return goal.id if isinstance(goal, Goal) else goal
+def _id(goal: GoalReport | str) -> str:
+    return goal.id if isinstance(goal, GoalReport) else goal
 
 
-def _goal(told: dict[str, Any]) -> Goal:
+def _goal(told: dict[str, Any]) -> GoalReport:
     plan, outcome = told.get("plan") or {}, told.get("outcome") or {}
     said = outcome.get("message") or plan.get("text") or {}
-    return Goal(
+    return GoalReport(
         id=told["id"],
         text=told["text"],
         state=told["state"],

@@ -21,7 +21,7 @@ Step = dict[str, Any]
 
 
 @dataclass(frozen=True)
-class World:
+class SkillWorld:
     """Tell a skill where things stand, as far as the robot knows."""
 
     places: dict[str, dict[str, str | None]]
@@ -42,6 +42,9 @@ class World:
     def name(self, place: str) -> str:
         """Return how people call a place, in the language of the sentence."""
         return str(self.places[place][self.language])
+
+
+World = SkillWorld
 
 
 def go_to(place: Place) -> Step:

@@ -191,8 +191,8 @@ def _try(settings: LaunchSettings, text: str, *, as_json: bool) -> int:
     from planner.language.plan_words import tell_steps
     from planner.language.sentence import parse
     from planner.language.templates.skills import with_skills
-    from planner.plan import EVERY_KIND, StepPlan, holds_call
-    from planner.skill_files.calls import SkillFailed, SkillScene, unfold
+    from planner.plan import EVERY_KIND, AnswerPlan, StepPlan, holds_call
+    from planner.skill_files.calls import SkillFailure, SkillScene, unfold
     from planner.skill_files.folder import FOLDER, read_folder
 
     bare = _names(settings)
@@ -209,11 +209,13 @@ def _try(settings: LaunchSettings, text: str, *, as_json: bool) -> int:
         return EXIT_FOUND
     try:
         done = asyncio.run(unfold(made, SkillScene(names, parse(text).language))).plan
-    except SkillFailed as failed:
+    except SkillFailure as failed:
         return _tell(failed.problem, EXIT_FOUND)
-    if not isinstance(done, StepPlan):
+    if isinstance(done, AnswerPlan):
         print(pick(done.text.en, done.text.zh))
         return EXIT_DONE
+    if not isinstance(done, StepPlan):
+        return EXIT_FOUND
     if as_json:
         print(
             json.dumps(done.model_dump(mode="json", exclude_none=True)["steps"], ensure_ascii=False)

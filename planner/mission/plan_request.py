@@ -48,7 +48,7 @@ from planner.plan import (
     holds_call,
     list_nodes,
 )
-from planner.skill_files.calls import SkillFailed, SkillScene, unfold
+from planner.skill_files.calls import SkillFailure, SkillScene, unfold
 
 CHECKS = frozenset({"look", "find", "count", "ask", "recall"})
 """Steps after which what an order puts on a condition may be done."""
@@ -174,19 +174,21 @@ def thinker(
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
             return Planned(ask.id, None, said, error.brain or brain.tag)
+        return await judge(ask, thought, request)
+
+    async def judge(ask: AskBrain, thought: ThinkResult, request: ThinkRequest) -> Planned:
         unasked, sure = await _hold_to_words(thought, request)
-        made: Plan = thought.plan
-        if isinstance(made, StepPlan) and holds_call(made.steps):
-            try:
-                unfolded = await unfold(made, _scene(request, clock))
-            except SkillFailed as failed:
-                log.warning("goal %s: %s", ask.id, failed)
-                return Planned(ask.id, None, failed.problem.outcome(failed.name), thought.brain)
-            made, unasked = unfolded.plan, unfolded.unasked(unasked, by_grammar=thought.by_grammar)
+        try:
+            unfolded = await unfold(thought.plan, _scene(request, clock))
+        except SkillFailure as failed:
+            log.warning("goal %s: %s", ask.id, failed)
+            return Planned(ask.id, None, failed.outcome, thought.brain)
+        made = unfolded.plan
         runnable = means.runnable - (GIVEN if _points_beyond(made, ask) else frozenset())
         rejection = check_plan(made, vocabulary, runnable, means.blind)
         if rejection is not None:
             return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
+        unasked = unfolded.find_unasked(unasked, by_grammar=thought.by_grammar)
         return Planned(ask.id, made, None, thought.brain, unasked, sure)
 
     return think

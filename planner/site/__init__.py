@@ -5,8 +5,8 @@ from planner.site.fence import Fence, SpeedZone
 from planner.site.fence_check import FenceRefusal, check_fence
 from planner.site.fence_diff import FenceDiff, fence_diff
 from planner.site.fence_store import FenceProposal, FenceProposals
-from planner.site.known_places import KeptPlace, KnownPlaces, Lesson, owner_of
-from planner.site.places import Place, normalise
+from planner.site.known_places import KeptPlace, KnownPlaces, Lesson
+from planner.site.places import Place, normalise, owner_of
 from planner.site.site import Site
 from planner.site.site_view import SiteView, Target, facts_of, vocabulary_of
 from planner.site.taught_place_check import check_not_order, check_spot, plain_name, reserved_names

@@ -17,13 +17,12 @@ from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
-from planner.language.folding import unmask
 from planner.plan import Skill, Vocabulary
 from planner.site.marks import SiteMarks
-from planner.site.places import Names, Place, squash
+from planner.site.places import Names, Place, drawn_alike, owner_of, squash
 from planner.site.polygon import area_m2
 from planner.site.site import Site
-from planner.site.site_view import SiteView, facts_of, vocabulary_of
+from planner.site.site_view import SiteView, calling, facts_of, vocabulary_of
 from planner.site.taught_place_check import check_not_order, check_spot, plain_name
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, MAX_KEPT, TaughtPlace, TaughtPlaces
@@ -150,12 +149,9 @@ class KnownPlaces:
 
     def keep_skills(self, skills: tuple[Skill, ...]) -> None:
         """Have sentences call these skills from now on, and no others."""
-        if skills == self._skills:
-            return
-        self._skills = skills
-        self._judge()
-        for told in self._listeners:
-            told()
+        if skills != self._skills:
+            self._skills = skills
+            self._tell()
 
     def listen(self, told: Callable[[], None]) -> None:
         """Have something called after each change."""
@@ -246,9 +242,8 @@ class KnownPlaces:
         if self._skills:
             from planner.language.templates.skills import with_skills
 
-            named = with_skills(self._facts.names, self._skills)
-            templates = named.skill_templates
-            self._facts = replace(self._facts, skills=self._skills, skill_templates=templates)
+            named = with_skills(self._facts.names, self._skills).skill_templates
+            self._facts = replace(self._facts, skills=self._skills, skill_templates=named)
         from planner.language.readers import learn_names  # routes know these places, and no words
 
         learn_names(self._facts.names)
@@ -276,8 +271,7 @@ class KnownPlaces:
     def _check_names(self, lesson: Lesson, names: Names, before: TaughtPlace | None) -> None:
         others = tuple(p for p in self._places if before is None or p.id != before.id)
         taught = tuple(p for p in others if p not in self.site.places)
-        called = {"skills": self._skills, "skill_templates": self._facts.skill_templates}
-        vocabulary = vocabulary_of(self.site, taught).model_copy(update=called)
+        vocabulary = calling(vocabulary_of(self.site, taught), self._facts.names)
         asked = {names.en, names.zh}
         if lesson.place_id is not None:
             if self.site.place(lesson.place_id) is not None:
@@ -287,7 +281,7 @@ class KnownPlaces:
             owner = owner_of(name, others)
             if owner is not None:
                 raise PlaceRefusal("place_name_taken", f"{name!r} names {owner.id!r}")
-            alike = _drawn_alike(name, others)
+            alike = drawn_alike(name, others)
             if alike is not None:
                 raise PlaceRefusal("place_name_taken", f"{name!r} looks like {alike.id!r}")
             check_not_order(name, vocabulary)
@@ -329,6 +323,9 @@ class KnownPlaces:
         await asyncio.to_thread(self._store.save, places)
         self._kept = places
         self.version += 1
+        self._tell()
+
+    def _tell(self) -> None:
         self._judge()
         for told in self._listeners:
             told()
@@ -347,20 +344,6 @@ def _names(lesson: Lesson) -> Names:
     return Names(
         en=given[0] if lesson.en is not None else given[-1],
         zh=given[-1] if lesson.zh is not None else given[0],
-    )
-
-
-def owner_of(name: str, places: tuple[Place, ...]) -> Place | None:
-    """Return the place that answers to a name, as a sentence is read, or None."""
-    wanted = squash(name)
-    return next((place for place in places if wanted in map(squash, place.spoken_names)), None)
-
-
-def _drawn_alike(name: str, places: tuple[Place, ...]) -> Place | None:
-    """Return the place whose name a person could not tell from this one, or None."""
-    seen = unmask(squash(name))
-    return next(
-        (p for p in places if seen in {unmask(squash(said)) for said in p.spoken_names}), None
     )
 
 

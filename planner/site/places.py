@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from maps.errors import BilingualError, SiteError
 from maps.yaml_records import SiteRecord, parse_yaml, read_bytes
-from planner.language.folding import fold_words
+from planner.language.folding import fold_words, unmask
 from planner.site.fence import Outline
 from planner.site.polygon import area_m2, contains
 from wire.fence import crosses_itself
@@ -138,3 +138,17 @@ def _check_names(record: PlacesRecord, path: Path) -> None:
                 text = f"{path}: {name!r} names both {first!r} and {place.id!r}"
                 zh = f"{path}：{name!r} 同时是 {first!r} 和 {place.id!r} 的名称"
                 raise SiteError("place_alias_clash", text, zh)
+
+
+def owner_of(name: str, places: tuple[Place, ...]) -> Place | None:
+    """Return the place that answers to a name, as a sentence is read, or None."""
+    wanted = squash(name)
+    return next((place for place in places if wanted in map(squash, place.spoken_names)), None)
+
+
+def drawn_alike(name: str, places: tuple[Place, ...]) -> Place | None:
+    """Return the place whose name a person could not tell from this one, or None."""
+    seen = unmask(squash(name))
+    return next(
+        (p for p in places if seen in {unmask(squash(said)) for said in p.spoken_names}), None
+    )

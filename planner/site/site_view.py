@@ -103,6 +103,12 @@ def _target(place: Place) -> Target:
     )
 
 
+def calling(names: Vocabulary, other: Vocabulary) -> Vocabulary:
+    """Return names with the skills of others."""
+    called = {"skills": other.skills, "skill_templates": other.skill_templates}
+    return names.model_copy(update=called)
+
+
 def vocabulary_of(site: Site, taught: tuple[Place, ...] = ()) -> Vocabulary:
     """Return the names that a plan for this site may use, the taught ones last."""
     return facts_of(site, taught).names

@@ -20,6 +20,7 @@ from planner.plan import (
     If,
     Language,
     ParameterKind,
+    Plan,
     Repeat,
     Say,
     Skill,
@@ -27,6 +28,7 @@ from planner.plan import (
     StepPlan,
     UseSkill,
     Vocabulary,
+    holds_call,
     list_nodes,
     say_same,
 )
@@ -51,7 +53,7 @@ class SkillScene:
     battery: float | None = None
     now: datetime | None = None
 
-    def told(self) -> dict[str, Any]:
+    def describe(self) -> dict[str, Any]:
         """Return it as the fields of ``pons.skill.World``."""
         places = {
             each.id: {"en": each.name.en, "zh": each.name.zh, "kind": each.kind, "room": each.room}
@@ -64,42 +66,46 @@ class SkillScene:
         }  # fmt: skip
 
 
-class SkillFailed(Exception):
-    """A call can't be carried out; the problem says why, the name which."""
+class SkillFailure(Exception):
+    """A call can't be carried out; ``outcome`` is how its goal ends."""
 
     def __init__(self, name: str, problem: SkillProblem) -> None:
         super().__init__(str(problem))
-        self.name, self.problem = name, problem
+        self.problem, self.outcome = problem, problem.outcome(name)
 
 
 @dataclass(frozen=True, slots=True)
 class UnfoldedPlan:
     """Hold a plan without calls, and where each step of its row stood in the one before."""
 
-    plan: StepPlan | AnswerPlan
+    plan: Plan
     row: tuple[int, ...] = ()
     own: frozenset[int] = frozenset()
     """The steps that came from skills."""
 
-    def unasked(self, before: tuple[int, ...], *, by_grammar: bool) -> tuple[int, ...]:
+    def find_unasked(self, before: tuple[int, ...], *, by_grammar: bool) -> tuple[int, ...]:
         """Return the steps that nobody asked for, given those of the plan before.
 
         A skill's own words ask for all that it does; a model that calls one has guessed that it is
         meant, and a person is asked.
         """
-        steps = self.plan.steps if isinstance(self.plan, StepPlan) else ()
-        row = list_nodes(steps)
+        if not self.row:
+            return before
+        row = list_nodes(self.plan.steps if isinstance(self.plan, StepPlan) else ())
         guessed = (at for at in self.own if not by_grammar and can_move(row[at].step))
         kept = (at for at, old in enumerate(self.row) if old in before)
         return tuple(sorted({*guessed, *kept}))
 
 
-async def unfold(plan: StepPlan, scene: SkillScene) -> UnfoldedPlan:
-    """Return a plan with the steps of its skills.
+async def unfold(plan: Plan, scene: SkillScene) -> UnfoldedPlan:
+    """Return a plan with the steps of its skills; one that calls none is returned as it is.
 
     Raises:
-        SkillFailed: one can't be carried out, and nothing of the plan is done.
+        SkillFailure: one can't be carried out, and nothing of the plan is done.
     """
+    if not isinstance(plan, StepPlan) or not holds_call(plan.steps):
+        return UnfoldedPlan(plan)
+    plan = StepPlan.model_validate(plan.model_dump())  # each step an object of its own
     calls = {id(n.step): n.step for n in list_nodes(plan.steps) if isinstance(n.step, UseSkill)}
     made = {key: await carry_out(call, scene) for key, call in calls.items()}
     alone = plan.steps[0] if len(plan.steps) == 1 else None
@@ -138,7 +144,7 @@ async def unfold(plan: StepPlan, scene: SkillScene) -> UnfoldedPlan:
 
 
 async def carry_out(call: UseSkill, scene: SkillScene) -> tuple[Step, ...] | str:
-    """Return the steps, or the words, that a call stands for. Raises SkillFailed."""
+    """Return the steps, or the words, that a call stands for. Raises SkillFailure."""
     skill = scene.names.skill(call.name)
     try:
         if skill is None:
@@ -149,14 +155,14 @@ async def carry_out(call: UseSkill, scene: SkillScene) -> tuple[Step, ...] | str
             rows = json.loads(skill.steps)
             return steps_from(skill.file, _routine(rows, skill, values, scene)).steps
         given: list[Any] = [
-            _typed(each.kind, v) for each, v in zip(skill.parameters, values, strict=True)
+            _to_number(each.kind, v) for each, v in zip(skill.parameters, values, strict=True)
         ]
         if skill.takes_world is not None:
-            given.insert(skill.takes_world, scene.told())
+            given.insert(skill.takes_world, scene.describe())
         asked = (skill.file, skill.source, skill.function, given)
         return _read_answer(skill, await asyncio.to_thread(call_function, *asked))
     except SkillProblem as problem:
-        raise SkillFailed(call.name, problem) from None
+        raise SkillFailure(call.name, problem) from None
 
 
 def _routine(rows: Any, skill: Skill, values: list[str], scene: SkillScene) -> Any:
@@ -208,7 +214,7 @@ def _value(skill: Skill, at: int, arguments: tuple[str, ...], scene: SkillScene)
     return said
 
 
-def _typed(kind: ParameterKind, value: str) -> str | float | int:
+def _to_number(kind: ParameterKind, value: str) -> str | float | int:
     if kind not in (ParameterKind.NUMBER, ParameterKind.DURATION):
         return value
     number = float(value)

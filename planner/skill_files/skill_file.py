@@ -122,7 +122,9 @@ def _routine(file: str, text: str) -> Skill:
     ]
     told = json.dumps(steps, ensure_ascii=False, default=str)
     fields = {"parameters": rows, "about": data.get("about", ""), "steps": told}
-    return _skill(file, text, fields | {each: _listed(data.get(each, ())) for each in ("en", "zh")})
+    return _skill(
+        file, text, fields | {each: _as_list(data.get(each, ())) for each in ("en", "zh")}
+    )
 
 
 def _function(file: str, text: str) -> Skill:
@@ -151,7 +153,7 @@ def _skill(file: str, text: str, fields: dict[str, Any]) -> Skill:
         raise SkillProblem("skill_malformed", file, line, at=at, what=first["msg"]) from None
 
 
-def _listed(said: object) -> object:
+def _as_list(said: object) -> object:
     return [said] if isinstance(said, str) else said
 
 

@@ -42,12 +42,12 @@ def test_a_saved_skill_is_driven_by_its_words_and_a_broken_one_moves_nothing(rob
         assert "morning_call.toml" in kept["outcome"]["message"]["en"]
         assert "morning_call" in names()
         broken.write_text(
-            'def broken() -> str:\n    """Break.\n\n    en: break the china\n    """\n'
+            'def broken() -> str:\n    """Hum.\n\n    en: hum the old tune\n    """\n'
             "    while True:\n        pass\n",
             "utf-8",
         )
         until(lambda: "broken" in names(), 10.0, "the broken skill", robot.judge.describe)
-        lost = robot.system.give("break the china")
+        lost = robot.system.give("hum the old tune")
         failed = robot.system.until_goal(lost["id"], "failed", "refused")
         assert failed["outcome"]["code"] == "skill_failed"
         assert "broken.py" in failed["outcome"]["message"]["en"]

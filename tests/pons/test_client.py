@@ -27,7 +27,7 @@ def robot(services: FakeServices) -> Robot:
 def test_an_order_is_given_and_followed(robot: Robot) -> None:
     given = robot.say("go to the kitchen")
     assert given.text == "go to the kitchen"
-    assert not given.ended
+    assert not given.has_ended
     assert robot.goal(given) == robot.goal(given.id)
 
 

@@ -194,6 +194,13 @@ def _tag_bombs() -> list[bytes]:
     return [f"a: !!{tag} {value}".encode() for tag in tags for value in ("''", "x", "[a]", "9999")]
 
 
+def _skill() -> Loaded:
+    from planner.skill_files.problems import SkillProblem
+    from planner.skill_files.skill_file import read_skill
+
+    return lambda folder: read_skill(folder / "skill.toml"), (SkillProblem,)
+
+
 def _toml_bombs() -> list[bytes]:
     tables = b"".join(b"[" + b"a." * n + b"b]\n" for n in range(1, 250))
     return [b"a = " + b"[" * 50_000, b"a = " + b"{b=" * 9_000, b"a = " + b"9" * 5_000, tables,
@@ -270,6 +277,7 @@ KINDS = (
     FileKind("fence.json", "fence.json", seeds.fences, _fence, _fence_bombs),
     FileKind("robot.toml", "robot.toml", seeds.robots, _robot, _toml_bombs),
     FileKind("settings.toml", "settings.toml", lambda: seeds.SETTINGS, _settings, _toml_bombs),
+    FileKind("skill", "skill.toml", lambda: seeds.SKILLS, _skill, _toml_bombs),
     FileKind("kept JSON", "kept.json", seeds.kept_seeds, _load_kept_files, _json_bombs),
     FileKind("labels", "labels.txt", lambda: [b'["cup", "chair"]', b"cup\nchair\n"], _labels,
              _json_bombs),

@@ -29,6 +29,10 @@ SETTINGS = (
     b'[model]\npreset = "ollama"\nname = "small"\n[budget.day]\nmoney = 1.5\n[mission]\n[vision]\n',
     b'[vision]\nmodel = "m.onnx"\nlabels = "names.txt"\nthreads = 2\n',
 )
+SKILLS = (
+    b'en = "do the round"\nsteps = [{kind = "go_to", place = "kitchen"}]\n',
+    b'zh = "{what}\xe5\xa5\xbd"\nsteps = [{kind = "explore"}]\n[parameters]\nwhat = "words"\n',
+)
 SENTENCES = (
     "go to the kitchen", "please stop", "s t o p", "don't come closer", "stop looking for the cup",
     "take the red cup from the table to the kitchen, then come back and tell me what you saw",

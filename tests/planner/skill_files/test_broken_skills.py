@@ -12,7 +12,7 @@ from planner.language.templates.skills import with_skills
 from planner.plan import Language, StepPlan, UseSkill, Vocabulary
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
-from planner.skill_files.calls import SkillFailed, SkillScene, unfold
+from planner.skill_files.calls import SkillFailure, SkillScene, unfold
 from planner.skill_files.folder import read_folder
 from planner.skill_files.problems import SkillProblem
 from planner.skill_files.skill_file import read_skill
@@ -51,12 +51,12 @@ def test_a_broken_function_does_nothing_and_is_told_with_its_line(
     path.write_text(function(body.replace("{home}", str(home))), "utf-8")
     names = with_skills(NAMES, (read_skill(path),))
     plan = StepPlan(steps=(UseSkill(name="plants"),))
-    with pytest.raises(SkillFailed) as failed:
+    with pytest.raises(SkillFailure) as failed:
         asyncio.run(unfold(plan, SkillScene(names, Language.EN)))
     problem = failed.value.problem
     assert (problem.code, problem.line) == (code, line), problem.said.en
     _tell(problem)
-    assert "plants.py" in problem.outcome("plants").message.zh
+    assert "plants.py" in failed.value.outcome.message.zh
     assert (home / "missions.db").read_bytes() == b"journal"
 
 

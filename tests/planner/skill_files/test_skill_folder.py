@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import re
 import shutil
 from pathlib import Path
 
@@ -11,7 +12,6 @@ import pytest
 
 from planner.language.commands import KeepSkill, TeachFact, intent_of
 from planner.plan import (
-    AnswerPlan,
     GoTo,
     GoToPose,
     Language,
@@ -29,6 +29,7 @@ from planner.skill_files.folder import SkillFolder
 from planner.skill_files.keep import SkillKeeper
 from planner.skill_files.problems import SkillProblem
 from planner.skill_files.words import called_by
+from pons import Robot
 
 SITE = Site.load(Path("sites/home"))
 TEXT = 'en = "{words}"\nsteps = [{{kind = "go_to", place = "{place}"}}]\n'
@@ -183,7 +184,7 @@ def test_the_examples_are_skills_that_do_what_they_say(
     def steps(name: str, *given: str, scene: SkillScene = scene) -> list[str]:
         call = StepPlan(steps=(UseSkill(name=name, arguments=given),))
         made = asyncio.run(unfold(call, scene)).plan
-        assert not isinstance(made, AnswerPlan)
+        assert isinstance(made, StepPlan)
         return [step.kind for step in made.steps]
 
     assert steps("evening_round", "") == ["patrol", "try", "go_to", "say"]
@@ -194,3 +195,20 @@ def test_the_examples_are_skills_that_do_what_they_say(
 
 def test_a_fact_is_no_skill() -> None:
     assert isinstance(intent_of("remember that my car is red"), TeachFact)
+
+
+def test_the_page_shows_the_examples_as_they_are() -> None:
+    page = Path("docs/skills.md").read_text("utf-8")
+    function = Path("examples/skills/plants.py").read_text("utf-8").partition("\n\n")[2]
+    assert function.strip() in page
+    for words in ("pons skill new", "pons skill check", "pons skill try", "256 MB", "32"):
+        assert words in page
+
+
+def test_the_program_of_the_page_uses_calls_that_are_there() -> None:
+    page = Path("docs/python.md").read_text("utf-8")
+    program = page.partition("```python\n")[2].partition("```")[0]
+    assert len(program.splitlines()) <= 20
+    compile(program, "docs/python.md", "exec")
+    for call in re.findall(r"robot\.(\w+)\(", program):
+        assert hasattr(Robot, call)

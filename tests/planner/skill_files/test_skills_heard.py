@@ -202,8 +202,8 @@ def test_calls_in_branches_are_replaced_and_evidence_stays_with_its_step(names: 
     assert isinstance(unfolded.plan, StepPlan)
     assert unfolded.plan.asked_by == ("a", "b", "c", "c", "d")
     assert unfolded.own == {2, 3}
-    assert unfolded.unasked((3,), by_grammar=True) == (4,)
-    assert unfolded.unasked((), by_grammar=False) == (2,)
+    assert unfolded.find_unasked((3,), by_grammar=True) == (4,)
+    assert unfolded.find_unasked((), by_grammar=False) == (2,)
 
 
 def _think(brain: Brain, text: str, names: Vocabulary) -> Planned:
