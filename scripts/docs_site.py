@@ -68,7 +68,7 @@ def with_staged_links(path: Path, root: Path) -> tuple[str, set[Path]]:
     named: set[Path] = set()
     here = Path(staged_name(path, root)).parent
 
-    def moved(found: re.Match[str]) -> str:
+    def staged_link(found: re.Match[str]) -> str:
         target = (path.parent / found[2]).resolve()
         if SCHEME.match(found[2]) or not target.is_relative_to(root):
             return found[0]
@@ -79,7 +79,7 @@ def with_staged_links(path: Path, root: Path) -> tuple[str, set[Path]]:
         named.add(target)
         return found[1] + os.path.relpath(staged_name(target, root), here) + found[3]
 
-    return LINK.sub(moved, path.read_text("utf-8")), named
+    return LINK.sub(staged_link, path.read_text("utf-8")), named
 
 
 def read_config(root: Path = ROOT) -> dict[str, Any]:

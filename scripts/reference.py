@@ -66,7 +66,9 @@ def http_page() -> str:
             lines += [f"\n## {tag.capitalize()}\n", "| route | what it does | asks | answers |"]
             lines += ["|---|---|---|---|"]
         said = one_line(operation.get("description", operation.get("summary", "")))
-        lines.append(f"| `{verb} {path}` | {said} | {asked(operation)} | {answers(operation)} |")
+        lines.append(
+            f"| `{verb} {path}` | {said} | {operation_input(operation)} | {answers(operation)} |"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -75,7 +77,7 @@ def one_line(text: str) -> str:
     return " ".join(text.split("\n\n", maxsplit=1)[0].split()).replace("|", "\\|")
 
 
-def asked(operation: dict[str, Any]) -> str:
+def operation_input(operation: dict[str, Any]) -> str:
     """Return the parameters and the body's schema."""
     asks = operation.get("parameters", [])
     named = [f"`{each['name']}`" for each in asks if each["in"] != "header"]
@@ -236,14 +238,14 @@ def found_codes() -> dict[str, set[tuple[str, str]]]:
         for path in sorted((ROOT / room).rglob("*.py")):
             package = path.parent.relative_to(ROOT).as_posix()
             for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-                if isinstance(node, ast.Call) and RAISERS.match(called(node.func)):
+                if isinstance(node, ast.Call) and RAISERS.match(callee_name(node.func)):
                     code, text = code_and_words(node.args)
                     if code:
                         found.setdefault(code, set()).add((package, text))
     return found
 
 
-def called(function: ast.expr) -> str:
+def callee_name(function: ast.expr) -> str:
     """Return the name of what is called."""
     if isinstance(function, ast.Name):
         return function.id
