@@ -133,7 +133,9 @@ def left_out(plan: PlanRecord, shown: Rehearsal, *, nav2: bool) -> tuple[LeftOut
         LeftOut.PICTURES: any(step.does == "open" for step in shown.steps),
         LeftOut.BRANCHES: "if" in kinds,
         LeftOut.ROUNDS: "repeat" in kinds,
-        LeftOut.WAITS: any((row.seconds or 0.0) > LONGEST_WAIT_S for row in plan.steps),
+        LeftOut.WAITS: any(
+            row.kind == "wait" and (row.seconds or 0.0) > LONGEST_WAIT_S for row in plan.steps
+        ),
         LeftOut.NAV2: nav2,
     }
     return (

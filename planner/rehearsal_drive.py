@@ -43,7 +43,8 @@ if TYPE_CHECKING:
 LONGEST_REAL_S = 180.0
 """Of real time; then it is killed."""
 PERSON_RADIUS_M = 0.25
-_KNOWN = {"index", "kind", "place", "name", "branch"}
+_CAME = DrivenStep.model_fields.keys() - {"index", "kind", "place", "name", "branch"}
+"""What is known of a step only once it is driven."""
 PATIENCE_S, TIMES = 120.0, 2.0
 """A drive gets so long beyond what was foretold, and so many times it."""
 
@@ -209,7 +210,7 @@ class RehearsalDrives:
             return
         came = {step.index: step for step in driven.steps}
         steps = tuple(
-            before.model_copy(update=came[before.index].model_dump(exclude=_KNOWN))
+            before.model_copy(update={name: getattr(came[before.index], name) for name in _CAME})
             if before.index in came
             else before
             for before in self.newest.driven.steps

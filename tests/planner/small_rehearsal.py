@@ -18,9 +18,12 @@ def main(parent: ParentPipes) -> int:
         return 0
     rows = asked[0]["rows"]
     steps = [
-        {"index": index, "kind": row["kind"], "outcome": "running", "length_m": 1.0}
+        {
+            "index": index, "kind": row["kind"], "outcome": "running", "length_m": 1.0,
+            "end": {"x_m": 1.0, "y_m": 2.0, "yaw_rad": 0.0},
+        }
         for index, row in rows
-    ]
+    ]  # fmt: skip
     half = {"steps": steps, "seconds": 9.0, "length_m": 1.0}
     parent.write({"is_over": False, "driven": half})
     kind = rows[0][1]["kind"]

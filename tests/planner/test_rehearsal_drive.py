@@ -87,6 +87,7 @@ async def test_it_is_told_step_by_step_and_is_over_with_its_process() -> None:
         assert [s.outcome for s in newest.driven.steps] == ["running", "left_out", "running"]
         assert LeftOut.PICTURES in newest.left_out
         assert newest.took_s > 0.0
+        assert '"end":{"x_m":1.0' in newest.model_dump_json(), "as the API tells it"
         assert not drives.is_busy
 
 
