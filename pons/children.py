@@ -65,9 +65,7 @@ def children(
     issued: IssuedCertificate | None = None,
 ) -> list[Child]:
     """Return the processes in the order of their start."""
-    logs = settings.home / "logs"
-    world = common_arguments(settings)
-    canvas = settings.canvas
+    logs, world, canvas = settings.home / "logs", common_arguments(settings), settings.canvas
     common = world if canvas is None else common_arguments(replace(settings, site=canvas))
     maps = [] if canvas is None else ["--mapping"]
     domain = ["--domain", settings.domain] if settings.domain else []
