@@ -200,8 +200,9 @@ def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
         assert verdict is None
         return
     assert verdict is not None
-    kinds = ((NEEDS_CAMERA, Code.NO_CAMERA), (GIVEN, Code.POINT_NOT_GIVEN))
-    kinds += ((CALLS, Code.NO_CAPABILITY),)
+    kinds = (
+        (NEEDS_CAMERA, Code.NO_CAMERA), (GIVEN, Code.POINT_NOT_GIVEN), (CALLS, Code.NO_CAPABILITY),
+    )  # fmt: skip
     lack = next((code for kinds_of, code in kinds if step["kind"] in kinds_of), Code.NOT_MAPPING)
     assert rejection_outcome(verdict, HOME).code is lack
     chinese = rejection_outcome(verdict, HOME).message.zh.replace("`pons up --map", "")
