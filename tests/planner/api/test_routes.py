@@ -112,7 +112,7 @@ def test_on_metal_a_free_robot_takes_a_goal_without_an_act() -> None:
         (b"{}", 422, "invalid_request", ("say text or points",)),
         (b'{"text": 7}', 422, "invalid_request", ("body.text", "valid string", "got 7")),
         (b'{"text": "go", "speed": 3}', 422, "invalid_request",
-         ("body.speed: unknown key", "3", "text?, source?, points?, map_id?, language?, confirm?")),
+         ("body.speed: unknown key", "3", "text?, source?, points?, map_id?, steps?, language?, confirm?")),
         (b'{"text": "' + b"a" * 300_000 + b'"}', 413, "body_too_large", ("262144",)),
     ],
     ids=["half", "bytes", "nothing", "list", "empty", "number", "unknown key", "300 kB"],
@@ -134,7 +134,7 @@ def test_malformed_goals_are_refused_and_told_what_was_expected(
     [
         (b"{", "正文不是 JSON"),
         (b"\x00\xff\x80", "正文不是 UTF-8 文本"),
-        (b"{}", "text 与 points 二者给一个"),
+        (b"{}", "text、points 与 steps 三者给一个"),
         (b'{"text": 7}', "body.text：应为文字，收到 7"),
         (b'{"text": "go", "speed": 3}', "body.speed：未知的键，值为 3"),
     ],
