@@ -13,8 +13,8 @@ from time import monotonic, time_ns
 from typing import TYPE_CHECKING
 
 from planner.api import Access, build, warm_up
-from planner.brain import Brain, FallbackBrain, OfflineBrain, ThinkRequest
-from planner.brain.model_replies import ReplyCollector
+from planner.brain import ThinkRequest
+from planner.brain_factory import brain_of, collector_of, model_of
 from planner.bridge_client import Link, WireBus
 from planner.budget import purse_of
 from planner.language.semantic_parser.parser import load_network
@@ -32,7 +32,7 @@ from planner.plan_display import PlanDisplay
 from planner.rehearsal import Rehearser
 from planner.rehearsal_drive import RehearsalDrives
 from planner.robot_service import LinkedRobot
-from planner.settings import list_keys, load_settings
+from planner.settings import load_settings
 from planner.settings_desk import SettingsDesk
 from planner.setup_switch import ProcessSwitch
 from planner.setup_wizard import SetupWizard
@@ -57,11 +57,8 @@ if TYPE_CHECKING:
 
     from fastapi import FastAPI
 
-    from planner.brain.endpoint import EndpointBrain
-    from planner.brain.usage_meter import Meter
     from planner.navigation import ObstacleReport
     from planner.perception import Thing
-    from planner.settings import Settings
 
 log = logging.getLogger(__name__)
 
@@ -100,10 +97,10 @@ class Planner:
         self.people = People(self._state)
         self.budget = purse_of(self.settings, where.home, self._state)
         self.replies = collector_of(self.settings)
-        self._model = _model(self.settings, where.home, self.budget, self.replies)
+        self._model = model_of(self.settings, where.home, self.budget, self.replies)
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
-        self.brain = _brain(self._model, self.settings)
+        self.brain = brain_of(self._model, self.settings)
         self.fences = FenceProposals.in_home(where.home, self._state)
         self._session = open_session(Party.PLANNER, self.description.id, where.home)
         self.budget.prepare()
@@ -290,27 +287,6 @@ class Planner:
         self._session.close()
 
 
-def collector_of(settings: Settings) -> ReplyCollector:
-    """Return the keeper of what a model writes; it keeps nothing unless the owner has set it."""
-    most_goals = 0 if settings.model is None else settings.model.keep_replies
-    return ReplyCollector(most_goals, list_keys(settings))
-
-
-def _model(
-    settings: Settings, home: Path, meter: Meter, replies: ReplyCollector | None = None
-) -> EndpointBrain | None:
-    """Return the brain of the model that the owner has set, if one is."""
-    if settings.model is None:
-        return None
-    from planner.brain.endpoint import EndpointBrain, warm_up  # httpx costs 0.1 s: not for nothing
-
-    logging.getLogger("httpx").setLevel(logging.WARNING)  # a line for each call is too much
-    model = EndpointBrain(settings.model, home, meter=meter, replies=replies)
-    warm_up()
-    log.info("plans come from %s at %s", model.tag.name, model.address.host)
-    return model
-
-
 def _is_driven_by_nav2(robot: RobotDescription) -> bool:
     return robot.ros2 is not None and robot.ros2.nav2 is not None
 
@@ -320,12 +296,6 @@ def _state_of(home: Path) -> StateDatabase:
     state = StateDatabase(home)
     state.put_aside_if_spoilt()
     return state
-
-
-def _brain(model: EndpointBrain | None, settings: Settings) -> Brain:
-    if model is None or settings.model is None:
-        return OfflineBrain()
-    return FallbackBrain(model, OfflineBrain(), rest_s=settings.model.rest_s)
 
 
 def application(planner: Planner, access: Access, authority: bytes = b"") -> FastAPI:

@@ -9,8 +9,8 @@ from typing import cast
 
 import pytest
 
-from planner.app import _brain, _model
 from planner.brain.usage_meter import thinking_about
+from planner.brain_factory import brain_of, model_of
 from planner.budget import purse_of
 from planner.mission.skills.perception import PictureCost
 from planner.mission.skills.search_bounds import MOST_PICTURES
@@ -72,13 +72,13 @@ def test_the_owners_model_is_asked_about_pictures_and_none_without_one(tmp_path:
     (tmp_path / "settings.toml").write_text(text, "utf-8")
     settings = load_settings(tmp_path, {})
     purse = purse_of(settings, tmp_path)
-    model, worker = _model(settings, tmp_path, purse), VisionWorker(settings.vision)
+    model, worker = model_of(settings, tmp_path, purse), VisionWorker(settings.vision)
     assert model is not None
-    brain = _brain(model, settings)
+    brain = brain_of(model, settings)
     looker = looker_of(model, brain, worker)
     assert looker is not None
     assert looker.tag.name == "m"
-    assert looker_of(None, _brain(None, settings), worker) is None
+    assert looker_of(None, brain_of(None, settings), worker) is None
     asyncio.run(model.close())
     purse.close()
 

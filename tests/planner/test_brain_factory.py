@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from planner.__main__ import REFUSED, main
-from planner.app import _brain, _model, collector_of
 from planner.brain import FallbackBrain, OfflineBrain
 from planner.brain.model_replies import ReplyTurn
+from planner.brain_factory import brain_of, collector_of, model_of
 from planner.budget import purse_of
 from planner.settings import FILE, load_settings
 from tests.conftest import ROOT
@@ -23,9 +23,9 @@ def test_without_a_setting_the_offline_brain_thinks(tmp_path: Path) -> None:
     stray = {"OPENAI_API_KEY": KEY, "OPENAI_BASE_URL": "http://127.0.0.1:1/v1"}
     settings = load_settings(tmp_path, stray)
     purse = purse_of(settings, tmp_path)
-    assert _model(settings, tmp_path, purse) is None
+    assert model_of(settings, tmp_path, purse) is None
     purse.close()
-    assert isinstance(_brain(None, settings), OfflineBrain)
+    assert isinstance(brain_of(None, settings), OfflineBrain)
 
 
 def test_with_a_setting_the_model_thinks_first(
@@ -35,9 +35,9 @@ def test_with_a_setting_the_model_thinks_first(
     named = {"PONS_MODEL_URL": "http://127.0.0.1:1/v1", "PONS_MODEL": "m", "PONS_MODEL_KEY": KEY}
     settings = load_settings(tmp_path, named)
     purse = purse_of(settings, tmp_path)
-    model = _model(settings, tmp_path, purse)
+    model = model_of(settings, tmp_path, purse)
     assert model is not None
-    brain = _brain(model, settings)
+    brain = brain_of(model, settings)
     assert isinstance(brain, FallbackBrain)
     assert brain.tag.name == "m"
     asyncio.run(model.close())
