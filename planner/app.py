@@ -57,8 +57,6 @@ if TYPE_CHECKING:
 
     from fastapi import FastAPI
 
-    from planner.navigation import ObstacleReport
-    from planner.perception import Thing
 
 log = logging.getLogger(__name__)
 
@@ -117,9 +115,7 @@ class Planner:
         self._voice = VoiceParts(self.settings, self._list_spoken_names)
         self.memory.listen(self._voice.learn_names)
         self.ears, self.speaker = self._voice.recogniser(), self._voice.speaker
-        link = Link(
-            WireBus(self._session, nav2=_is_driven_by_nav2(self.description)), self.description
-        )
+        link = self._open_link()
         self.robot = LinkedRobot(link, self.description, self._speed_mps)
         self.detector = Opening(self.settings.vision, self.description)
         self._opening: asyncio.Task[None] | None = None
@@ -142,6 +138,11 @@ class Planner:
         self._begin_memory(where.home)
         self.goals.see(self.eyes, looker_of(self._model, self.brain, worker))
         self.goals.loop.bound_search(picture_limits(self.settings), spent_by(self.budget))
+
+    def _open_link(self) -> Link:
+        ros2 = self.description.ros2
+        has_nav2 = ros2 is not None and ros2.nav2 is not None
+        return Link(WireBus(self._session, nav2=has_nav2), self.description)
 
     @property
     def leaves_robot(self) -> bool:
@@ -177,15 +178,12 @@ class Planner:
     @cached_property
     def rehearsal_drives(self) -> RehearsalDrives:
         """Drive plans in the simulator, in a process of its own while one is driven."""
-        goals, sight = self.goals, self.eyes
-
-        def layer() -> ObstacleReport | None:
-            return None if goals.obstacles is None else goals.obstacles.report
-
-        def things() -> tuple[Thing, ...]:
-            return sight.sight.things
-
-        return RehearsalDrives(self.rehearser, self.memory, self.description, layer, things)
+        goals, eyes = self.goals, self.eyes
+        return RehearsalDrives(
+            self.rehearser, self.memory, self.description,
+            lambda: None if goals.obstacles is None else goals.obstacles.report,
+            lambda: eyes.sight.things,
+        )  # fmt: skip
 
     @property
     def voice(self) -> VoiceAbilities:
@@ -195,11 +193,8 @@ class Planner:
     def _begin_memory(self, home: Path) -> None:
         """Let what the eyes see and what people tell and teach be remembered."""
         self.goals.find_keys_by(self.history.find_key)
-        self.skills = SkillFolder(
-            home,
-            lambda: self.memory.vocabulary,
-            lambda read: self.memory.keep_skills(read.skills),
-        )
+        keep, names = self.memory.keep_skills, lambda: self.memory.vocabulary
+        self.skills = SkillFolder(home, names, lambda read: keep(read.skills))
         self.goals.commands.skills = SkillKeeper(self.skills)
         limits = MemoryLimits(**self.settings.memory.model_dump())
         self.recollection = Recollection(MemoryStore(self._state, limits))
@@ -285,10 +280,6 @@ class Planner:
         self._state.close()
         self._journal.close()
         self._session.close()
-
-
-def _is_driven_by_nav2(robot: RobotDescription) -> bool:
-    return robot.ros2 is not None and robot.ros2.nav2 is not None
 
 
 def _state_of(home: Path) -> StateDatabase:
