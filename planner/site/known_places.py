@@ -149,9 +149,8 @@ class KnownPlaces:
 
     def keep_skills(self, skills: tuple[Skill, ...]) -> None:
         """Have sentences call these skills from now on, and no others."""
-        if skills != self._skills:
-            self._skills = skills
-            self._tell()
+        self._skills = skills
+        self._tell()
 
     def listen(self, told: Callable[[], None]) -> None:
         """Have something called after each change."""
