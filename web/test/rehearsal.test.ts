@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { wayOf } from "../src/rehearse/ghost";
 import { figuresOf } from "../src/rehearse/RehearsalPanel";
 import { outcomeOf, sumOf } from "../src/rehearse/DrivenPart";
 import type { DrivenRehearsal, DrivenStep } from "../src/rehearse/drive";
@@ -86,7 +87,19 @@ describe("a step that was driven in the simulator", () => {
   });
 
   it("is summed up beside what was foretold", () => {
-    expect(sumOf(whole)).toContain("Driven 11.7 m, 28 s; foretold 11.6 m, 27 s. 12 x faster");
+    expect(sumOf(whole)).toContain("Driven 11.7 m, 28 s; foretold 11.6 m, 27 s.");
+    expect(sumOf(whole)).toContain("12 times faster");
+    expect(sumOf({ ...whole, times_faster: 0.8 })).not.toContain("faster");
     expect(sumOf({ ...whole, state: "running" })).toContain("So far");
+    const begun = { ...whole.driven, seconds: 0 };
+    expect(sumOf({ ...whole, state: "running", driven: begun })).toContain("starts");
+  });
+});
+
+describe("a way on the map", () => {
+  it("is drawn from two points on; an empty path would be an error of the browser", () => {
+    expect(wayOf([])).toBe("");
+    expect(wayOf([[1, 2]])).toBe("");
+    expect(wayOf([[1, 2], [3, 4]])).toMatch(/^M/); // prettier-ignore
   });
 });

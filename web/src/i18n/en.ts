@@ -550,8 +550,9 @@ export const en = {
   "driven.start": "Try it in the simulator",
   "driven.title": "In the simulator",
   "driven.under_way": "So far {metres}, {seconds}. The robot itself does not move.",
-  "driven.sum":
-    "Driven {metres}, {seconds}; foretold {foretold}. {faster} faster than real. Nothing has moved.",
+  "driven.sum": "Driven {metres}, {seconds}; foretold {foretold}. Nothing has moved.",
+  "driven.faster": "{times} times faster than real.",
+  "driven.starts": "The simulator starts. The robot itself does not move.",
   "driven.nearest": "{m} from the nearest thing",
   "driven.contacts": "touched something {n} times",
   "driven.rows": "held back by {rows}",

@@ -75,14 +75,13 @@ export function outcomeOf(step: DrivenStep): string {
 export function sumOf(now: DrivenRehearsal): string {
   const { driven: got, shown: foretold } = now;
   const figures = { metres: fixed(got.length_m, 1, "m"), seconds: fixed(got.seconds, 0, "s") };
-  if (now.state === "running") return t("driven.under_way", figures);
-  const faster = now.times_faster === null ? "" : fixed(now.times_faster, 0, "x");
-  return t("driven.sum", {
-    ...figures,
-    foretold: t("rehearsal.way", {
-      metres: fixed(foretold.length_m, 1, "m"),
-      seconds: fixed(foretold.seconds, 0, "s"),
-    }),
-    faster,
+  if (now.state === "running")
+    return got.seconds > 0 ? t("driven.under_way", figures) : t("driven.starts");
+  const ways = t("rehearsal.way", {
+    metres: fixed(foretold.length_m, 1, "m"),
+    seconds: fixed(foretold.seconds, 0, "s"),
   });
+  const times = now.times_faster ?? 0;
+  const faster = times >= 2 ? ` ${t("driven.faster", { times: fixed(times, 0) })}` : "";
+  return t("driven.sum", { ...figures, foretold: ways }) + faster;
 }

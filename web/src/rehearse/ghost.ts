@@ -16,9 +16,8 @@ export function followGhost(drawing: Drawing): () => void {
   within?.append(ghost, trail);
   const end = effect(() => {
     const steps = shown.value?.plan.steps ?? [];
-    const ways = steps.filter((step) => step.points.length > 1);
-    ghost.setAttribute("d", ways.map((step) => outlineOf(step.points)).join(""));
-    trail.setAttribute("d", outlineOf(driven.value?.driven.trail ?? []));
+    ghost.setAttribute("d", steps.map((step) => wayOf(step.points)).join(""));
+    trail.setAttribute("d", wayOf(driven.value?.driven.trail ?? []));
   });
   return () => {
     end();
@@ -26,3 +25,7 @@ export function followGhost(drawing: Drawing): () => void {
     trail.remove();
   };
 }
+
+/** Return a way as a path; fewer than two points are none, and an empty path is not drawn. */
+export const wayOf = (points: readonly (readonly [number, number])[]): string =>
+  points.length > 1 ? outlineOf(points) : "";
