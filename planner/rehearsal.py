@@ -191,13 +191,11 @@ class Rehearser:
             room=self._site.facts.room_at(pose.x_m, pose.y_m),
             runnable=RUNNABLE | self._site.vocabulary.calls,
         )
-        plan = (await OfflineBrain().think(request)).plan
-        tongue = language or parse(text).language
+        scene = SkillScene(request.vocabulary, language or parse(text).language, request.room)
         try:
-            plan = (await unfold(plan, SkillScene(request.vocabulary, tongue, request.room))).plan
+            plan = (await unfold((await OfflineBrain().think(request)).plan, scene)).plan
         except SkillFailure as failed:
-            said = failed.outcome.message
-            raise RehearsalError("rehearsal_no_plan", str(failed), said) from None
+            raise RehearsalError("rehearsal_no_plan", str(failed), failed.outcome.message) from None
         return plan_record(plan)
 
     async def of_plan(self, plan: PlanRecord | None) -> Rehearsal:

@@ -86,55 +86,53 @@ def _run_command(words: list[str]) -> int:
 
         print(version_line())
         return 0
-    from pons.grammar import (  # after an order to stop
-        EVAL,
-        MAP,
-        MCP,
-        MOCK_LLM,
-        NAV2,
-        ROBOT,
-        SITE,
-        SKILL,
-        parser,
-    )
+    from pons.grammar import parser  # after an order to stop
 
     settings = load(starts=words[:1] == ["up"])
     if words and words[0] in _FOLLOW and not is_robot_named():
         from pons.running import of_this_user
 
         settings = of_this_user(settings)
-    if words[:1] == [MOCK_LLM]:  # reads its own words; its web server is not for the others
+    status = _run_apart(settings, *words) if words else None
+    return _dispatch(settings, parser().parse_args(words), words) if status is None else status
+
+
+def _run_apart(settings: LaunchSettings, word: str, *more: str) -> int | None:
+    """Run a command that reads its own words, and whose imports are not for the others."""
+    from pons import grammar
+
+    words = list(more)
+    if word == grammar.MOCK_LLM:
         from pons.mock_llm.command import main as mock_llm
 
-        return mock_llm(words[1:])
-    if words[:1] == [MCP]:  # likewise; the SDK comes with an extra
-        return _serve_mcp(settings, words[1:])
-    if words[:1] == [EVAL]:  # likewise; it starts nothing
+        return mock_llm(words)
+    if word == grammar.MCP:
+        return _serve_mcp(settings, words)
+    if word == grammar.EVAL:
         from pons.evals.command import main as evaluate
 
-        return evaluate(settings, words[1:])
-    if words[:1] == [SITE]:  # likewise
+        return evaluate(settings, words)
+    if word == grammar.SITE:
         from pons import site
 
-        return site.run(settings, words[1:])
-    if words[:1] == [MAP]:  # likewise
+        return site.run(settings, words)
+    if word == grammar.MAP:
         from pons import mapping
 
-        return mapping.run(settings, words[1:])
-    if words[:1] == [ROBOT]:  # likewise
+        return mapping.run(settings, words)
+    if word == grammar.ROBOT:
         from pons import robot
 
-        return robot.run(settings, words[1:])
-    if words[:1] == [SKILL]:  # likewise
+        return robot.run(settings, words)
+    if word == grammar.SKILL:
         from pons import skill_command
 
-        return skill_command.run(settings, words[1:])
-    if words[:1] == [NAV2]:  # likewise
+        return skill_command.run(settings, words)
+    if word == grammar.NAV2:
         from ros2.nav2 import main as nav2
 
-        given = ["--robot", str(settings.robot), "--home", str(settings.home)]
-        return nav2([*given, *words[1:]])
-    return _dispatch(settings, parser().parse_args(words), words)
+        return nav2(["--robot", str(settings.robot), "--home", str(settings.home), *words])
+    return None
 
 
 def _serve_mcp(settings: LaunchSettings, words: list[str]) -> int:
@@ -143,7 +141,7 @@ def _serve_mcp(settings: LaunchSettings, words: list[str]) -> int:
     except ModuleNotFoundError as missing:
         if missing.name not in ("mcp", "mcp_types"):
             raise
-        print("mcp_missing: pip install 'pons-robot[mcp]'", file=sys.stderr)
+        print("mcp_missing: pip install -e '.[mcp]'", file=sys.stderr)
         return EXIT_USAGE
     return serve(settings, words)
 

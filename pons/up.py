@@ -13,6 +13,7 @@ import signal
 import sys
 import threading
 import time
+from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -223,12 +224,10 @@ class Supervisor:
             from pons.bridge_client import arm_direct
 
             self._armed = arm_direct(self._settings)
-            return self._armed
-        try:
-            answer = call(self._settings, "POST", "/v1/arm", {}, timeout_s=3.0)
-        except (PlannerDown, PlannerProblem):
-            return False
-        self._armed = bool(answer.get("accepted"))
+        else:
+            with suppress(PlannerDown, PlannerProblem):
+                answer = call(self._settings, "POST", "/v1/arm", {}, timeout_s=3.0)
+                self._armed = bool(answer.get("accepted"))
         return self._armed
 
     def _take_down(self) -> None:

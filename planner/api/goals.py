@@ -60,6 +60,7 @@ def routes(services: Services) -> APIRouter:
     router = APIRouter(prefix="/v1/goals", tags=["goals"])
     door = GoalIntake(services)
     _giving(router, services, door)
+    _showing(router, services)
     _acting(router, services, door)
     return router
 
@@ -149,6 +150,10 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
             )
         except UnknownGoal as former:
             return await find_goal(services, former.goal_id, repeats=True)
+
+
+def _showing(router: APIRouter, services: Services) -> None:
+    goals = services.goals
 
     @router.get("", operation_id="list_goals")
     async def several(limit: Limit = 50, after: Cursor = None) -> dict[str, Any]:

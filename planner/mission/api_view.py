@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from datetime import UTC, datetime
 from math import isfinite
+from typing import TYPE_CHECKING, Any
 
 from planner.mission.activity import Driving, Retrying, Waiting
 from planner.mission.state import Mission, MissionState
 from planner.plan import Goal, PauseReason, PlanRecord
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 Progress = dict[str, float | int | str]
 """The goal, the number of its step, and what is left of it: ``left_m``, ``left_rad``, ``left_s``.
@@ -38,6 +42,16 @@ def recorded_goal(mission: Mission) -> Goal:
         created=datetime.fromtimestamp(mission.created_unix_s, UTC),
         updated=datetime.fromtimestamp(mission.updated_unix_s, UTC),
     )
+
+
+def tell_book(book: MissionState, goals: Iterable[Goal]) -> dict[str, Any]:
+    """Return where everything stands, as JSON."""
+    return {
+        "running": book.running,
+        "queue": list(book.queue),
+        "goals": [goal.model_dump(mode="json") for goal in goals],
+        "status": book.status.model_dump(mode="json") if book.status is not None else None,
+    }
 
 
 def progress_of(book: MissionState) -> Progress | None:

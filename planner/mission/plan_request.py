@@ -161,19 +161,8 @@ def thinker(
         try:
             hear = hearing.of(ask.id) if hearing else None
             thought = await think_warily(brain, request, hear)
-        except BadPlan as error:
-            log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
-            why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
-            said = Outcome(code=Code.BAD_PLAN, message=why)
-            return Planned(ask.id, None, said, error.brain or brain.tag)
-        except OutOfBudget as error:
-            log.warning("goal %s: no call went out: %s", ask.id, error)
-            said = Outcome(code=Code.OUT_OF_BUDGET, message=error.said)
-            return Planned(ask.id, None, said, error.brain or brain.tag)
-        except BrainDown as error:
-            log.warning("goal %s: the brain is down: %s", ask.id, error)
-            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
-            return Planned(ask.id, None, said, error.brain or brain.tag)
+        except (BadPlan, OutOfBudget, BrainDown) as error:
+            return Planned(ask.id, None, _tell_failure(ask.id, error), error.brain or brain.tag)
         return await judge(ask, thought, request)
 
     async def judge(ask: AskBrain, thought: ThinkResult, request: ThinkRequest) -> Planned:
@@ -192,6 +181,19 @@ def thinker(
         return Planned(ask.id, made, None, thought.brain, unasked, sure)
 
     return think
+
+
+def _tell_failure(goal: str, error: BadPlan | OutOfBudget | BrainDown) -> Outcome:
+    """Return what a goal ends with whose brain failed."""
+    if isinstance(error, BadPlan):
+        log.warning("goal %s: the brain wrote no plan: %s", goal, error)
+        why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
+        return Outcome(code=Code.BAD_PLAN, message=why)
+    if isinstance(error, OutOfBudget):
+        log.warning("goal %s: no call went out: %s", goal, error)
+        return Outcome(code=Code.OUT_OF_BUDGET, message=error.said)
+    log.warning("goal %s: the brain is down: %s", goal, error)
+    return Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
 
 
 def _scene(request: ThinkRequest, clock: Callable[[], datetime]) -> SkillScene:

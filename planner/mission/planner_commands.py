@@ -243,13 +243,14 @@ class PlannerCommands:
     async def _hint(self, name: str) -> AnswerPlan | Refuse:
         """Tell localization where a person says the robot is, and say what scans make of it."""
         if self._memory.facts.grows:  # the mapper takes no hints: nobody would answer
-            return _hint_refused("map_grows")
+            return _refuse(Code.HINT_REFUSED, say("hint.map_grows"))
         place = self.place_called(name)
         if place is None or self._link.localizer is None:
-            return _hint_refused("no_localizer")
+            return _refuse(Code.HINT_REFUSED, say("hint.no_localizer"))
         verdict = await self._link.hint(hint_in(place))
         if verdict is None or verdict.code != "accepted":
-            return _hint_refused("no_answer" if verdict is None else verdict.code)
+            code = "no_answer" if verdict is None else verdict.code
+            return _refuse(Code.HINT_REFUSED, say(f"hint.{code}"))
         return AnswerPlan(text=say("hint.accepted"))
 
     async def _learn(
@@ -279,11 +280,11 @@ class PlannerCommands:
         before = last_orders(self._loop.book, mission.created_unix_s)
         steps = next((steps_of(m.steps) for m in before if m.steps and m.id != mission.id), ())
         if not steps or self.skills is None:
-            return _skill_refused(say("skill.skill_nothing_before"))
+            return _refuse(Code.SKILL_NOT_KEPT, say("skill.skill_nothing_before"))
         try:
             skill = await self.skills.keep(name, steps)
         except SkillProblem as problem:
-            return _skill_refused(problem.said)
+            return _refuse(Code.SKILL_NOT_KEPT, problem.said)
         told = tell_steps(steps, self._memory.vocabulary.name)
         return AnswerPlan(text=say("skill.kept", name=name, steps=told, file=skill.file))
 
@@ -299,38 +300,20 @@ class PlannerCommands:
 
 _NOTHING_RUNS = say("commands.nothing_runs")
 _SAID: dict[str, tuple[Bilingual, Bilingual]] = {
-    "pause": (
-        say("commands.paused"),
-        say("commands.nothing_to_pause"),
-    ),
-    "resume": (
-        say("commands.resumed"),
-        say("commands.nothing_to_resume"),
-    ),
-    "cancel": (
-        say("commands.cancelled"),
-        say("commands.nothing_to_cancel"),
-    ),
+    "pause": (say("commands.paused"), say("commands.nothing_to_pause")),
+    "resume": (say("commands.resumed"), say("commands.nothing_to_resume")),
+    "cancel": (say("commands.cancelled"), say("commands.nothing_to_cancel")),
 }
 """What is said when it was done, and when there was nothing to do it to."""
 
 
 def not_kept(refused: PlaceRefusal) -> Refuse:
     """Say why a place was not kept or not forgotten."""
-    why = refused.why
-    return Refuse(code=Code.PLACE_NOT_KEPT, reason=message(Code.PLACE_NOT_KEPT, why=why))
+    return _refuse(Code.PLACE_NOT_KEPT, refused.why)
 
 
-def _skill_refused(why: Bilingual) -> Refuse:
-    """Say why an order's steps were not kept."""
-    return Refuse(code=Code.SKILL_NOT_KEPT, reason=message(Code.SKILL_NOT_KEPT, why=why))
-
-
-def _hint_refused(code: str) -> Refuse:
-    """Say why a person's word on where the robot is changed nothing."""
-    return Refuse(
-        code=Code.HINT_REFUSED, reason=message(Code.HINT_REFUSED, why=say(f"hint.{code}"))
-    )
+def _refuse(code: Code, why: Bilingual) -> Refuse:
+    return Refuse(code=code, reason=message(code, why=why))
 
 
 class _WordsOf:

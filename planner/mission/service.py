@@ -16,7 +16,7 @@ from planner.brain.interface import Brain
 from planner.bridge_client import Identity, Link, StopResult
 from planner.language.sentence import parse
 from planner.mission.agents import is_agents, refuse_command
-from planner.mission.api_view import goal_of
+from planner.mission.api_view import goal_of, tell_book
 from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
@@ -42,6 +42,7 @@ from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
+    Reception,
     awaits_answer,
     goal_to_resume,
     hears_stop,
@@ -104,7 +105,7 @@ class Missions:
         self.points = StepGoals(self.loop, self.memory, survey, self._repeats, self._clocks, think)
         self.standing = StandingGoals(self.loop, self._ask_brain, self._repeats)
         self.obstacles: ScanSender | None = None
-        self.memory.listen(self._on_places)
+        self.memory.listen(lambda: self.loop.event(Known(self.memory.facts)))
 
     def remember_by(self, recollection: Recollection) -> None:
         """Answer from this memory, and keep in it what people say."""
@@ -120,10 +121,8 @@ class Missions:
 
     def show_scans(self, observer: ScanObserver) -> None:
         """Show scans to the route search, which remembers what the map does not know."""
-        lidar, map_id = self._robot.lidar, self.memory.site.map_id
-        self.obstacles = ScanSender(
-            self.link, lidar, map_id, observer, self.loop.way_ahead, self._clocks.monotonic
-        )
+        of, ahead = (self._robot.lidar, self.memory.site.map_id, observer), self.loop.way_ahead
+        self.obstacles = ScanSender(self.link, *of, ahead, self._clocks.monotonic)
         self.loop.show_scans(self.obstacles)
 
     async def start(
@@ -141,12 +140,9 @@ class Missions:
         """
         self.loop.rule(rules or Rules())
         kept = await self.loop.start(
-            self.points.think,
-            self._router,
-            freeze=freeze,
-            rounds=rounds,
+            self.points.think, self._router, freeze=freeze, rounds=rounds,
             recall=self._lookup.answer,
-        )
+        )  # fmt: skip
         self._repeats.recall(kept)
 
     async def close(self) -> None:
@@ -192,10 +188,10 @@ class Missions:
             await self._repeats.look_up(idempotency_key)
         said, goal_id = parse(text), self._clocks.new_id()
         act = None if is_agents(source) else act
-        spoken = language or said.language
+        spoken, now_s = language or said.language, self._clocks.monotonic()
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source, by=by)
         heard = receive(
-            self.loop.book, said, given, self._clocks.monotonic(),
+            self.loop.book, said, given, now_s,
             leaning=leaning, key=idempotency_key, repeats=self._repeats,
         )  # fmt: skip
         if heard.refused is not None:
@@ -205,17 +201,21 @@ class Missions:
         if heard.repeats is not None:
             return self.goal(heard.repeats)
         self._repeats.remember(heard.request)
-        if heard.given.resumes:
-            self.loop.clear_hold(act)
-        else:
-            for behind in (goal_id, *heard.given.asking):
-                self.loop.keep_act(behind, act)
-        self.loop.accepted.note(goal_id, self._clocks.monotonic())
-        self.loop.event(heard.given, heard.request)
-        if heard.takes_back is not None:
-            self.loop.event(Cancel(heard.takes_back))
+        self._begin(heard, act)
         await self._repeats.ensure_written(self.loop, goal_id, heard.request)
         return self.goal(goal_id)
+
+    def _begin(self, heard: Reception, act: OpRequest | None) -> None:
+        given = heard.given
+        if given.resumes:
+            self.loop.clear_hold(act)
+        else:
+            for behind in (given.id, *given.asking):
+                self.loop.keep_act(behind, act)
+        self.loop.accepted.note(given.id, self._clocks.monotonic())
+        self.loop.event(given, heard.request)
+        if heard.takes_back is not None:
+            self.loop.event(Cancel(heard.takes_back))
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, with any other meaning besides."""
@@ -298,15 +298,11 @@ class Missions:
         return tuple(self.loop.accepted.seconds)
 
     def goal(self, goal_id: str) -> Goal:
-        """Return a goal.
-
-        Raises:
-            UnknownGoal: there is none of that id at hand.
-        """
-        mission = self.loop.book.missions.get(goal_id)
-        if mission is None:
-            raise UnknownGoal(goal_id, tuple(self.loop.book.missions))
-        return goal_of(self.loop.book, mission)
+        """Return a goal. Raises UnknownGoal: there is none of that id at hand."""
+        book = self.loop.book
+        if goal_id not in book.missions:
+            raise UnknownGoal(goal_id, tuple(book.missions))
+        return goal_of(book, book.missions[goal_id])
 
     def goals(self, limit: int = 50) -> tuple[Goal, ...]:
         """Return goals: first all that are open, then those that ended, each newest first."""
@@ -323,15 +319,8 @@ class Missions:
 
     def snapshot(self) -> dict[str, Any]:
         """Return where everything stands, with the seq of the newest event it contains."""
-        status = self.loop.book.status
-        return {
-            "seq": self.loop.hub.seq,
-            "planner_id": self.planner_id,
-            "running": self.loop.book.running,
-            "queue": list(self.loop.book.queue),
-            "goals": [goal.model_dump(mode="json") for goal in self.goals()],
-            "status": status.model_dump(mode="json") if status is not None else None,
-        }
+        seq, goals = self.loop.hub.seq, self.goals()
+        return {"seq": seq, "planner_id": self.planner_id, **tell_book(self.loop.book, goals)}
 
     async def _stop_goal(self, given: Submitted, act: OpRequest | None = None) -> Goal:
         result = await self.stop(given.by)
@@ -345,9 +334,6 @@ class Missions:
         book, find, refuse = self.loop.book, self._lookup.find_relevant, self.commands.refuse_offer
         eyes = (self.memory.vocabulary, self._hearing, book.means, book.eyes.classes)
         return await thinker(self._brain, *eyes, remember=find, refuse_offer=refuse)(ask)
-
-    def _on_places(self) -> None:
-        self.loop.event(Known(self.memory.facts))
 
     async def _command(
         self, command: Command, act: OpRequest | None = None, source: str = "api"
