@@ -174,24 +174,33 @@ def thinker(
             log.warning("goal %s: the brain is down: %s", ask.id, error)
             said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
             return Planned(ask.id, None, said, error.brain or brain.tag)
-        return await judge(ask, thought, request)
-
-    async def judge(ask: AskBrain, thought: ThinkResult, request: ThinkRequest) -> Planned:
-        unasked, sure = await _hold_to_words(thought, request)
-        try:
-            unfolded = await unfold(thought.plan, _scene(request, clock))
-        except SkillFailure as failed:
-            log.warning("goal %s: %s", ask.id, failed)
-            return Planned(ask.id, None, failed.outcome, thought.brain)
-        made = unfolded.plan
-        runnable = means.runnable - (GIVEN if _points_beyond(made, ask) else frozenset())
-        rejection = check_plan(made, vocabulary, runnable, means.blind)
-        if rejection is not None:
-            return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
-        unasked = unfolded.find_unasked(unasked, by_grammar=thought.by_grammar)
-        return Planned(ask.id, made, None, thought.brain, unasked, sure)
+        return await _judge_thought(ask, thought, request, means, clock)
 
     return think
+
+
+async def _judge_thought(
+    ask: AskBrain,
+    thought: ThinkResult,
+    request: ThinkRequest,
+    means: Means,
+    clock: Callable[[], datetime],
+) -> Planned:
+    """Return a thought with the steps of its skills, held to a person's words and the robot."""
+    names = request.vocabulary
+    unasked, sure = await _hold_to_words(thought, request)
+    try:
+        unfolded = await unfold(thought.plan, _scene(request, clock))
+    except SkillFailure as failed:
+        log.warning("goal %s: %s", ask.id, failed)
+        return Planned(ask.id, None, failed.outcome, thought.brain)
+    made = unfolded.plan
+    runnable = means.runnable - (GIVEN if _points_beyond(made, ask) else frozenset())
+    rejection = check_plan(made, names, runnable, means.blind)
+    if rejection is not None:
+        return Planned(ask.id, None, rejection_outcome(rejection, names), thought.brain)
+    unasked = unfolded.find_unasked(unasked, by_grammar=thought.by_grammar)
+    return Planned(ask.id, made, None, thought.brain, unasked, sure)
 
 
 def _scene(request: ThinkRequest, clock: Callable[[], datetime]) -> SkillScene:
