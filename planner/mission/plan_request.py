@@ -161,39 +161,46 @@ def thinker(
         try:
             hear = hearing.of(ask.id) if hearing else None
             thought = await think_warily(brain, request, hear)
-        except (BadPlan, OutOfBudget, BrainDown) as error:
-            return Planned(ask.id, None, _tell_failure(ask.id, error), error.brain or brain.tag)
-        return await judge(ask, thought, request)
-
-    async def judge(ask: AskBrain, thought: ThinkResult, request: ThinkRequest) -> Planned:
-        unasked, sure = await _hold_to_words(thought, request)
-        try:
-            unfolded = await unfold(thought.plan, _scene(request, clock))
-        except SkillFailure as failed:
-            log.warning("goal %s: %s", ask.id, failed)
-            return Planned(ask.id, None, failed.outcome, thought.brain)
-        made = unfolded.plan
-        runnable = means.runnable - (GIVEN if _points_beyond(made, ask) else frozenset())
-        rejection = check_plan(made, vocabulary, runnable, means.blind)
-        if rejection is not None:
-            return Planned(ask.id, None, rejection_outcome(rejection, vocabulary), thought.brain)
-        unasked = unfolded.find_unasked(unasked, by_grammar=thought.by_grammar)
-        return Planned(ask.id, made, None, thought.brain, unasked, sure)
+        except BadPlan as error:
+            log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
+            why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
+            said = Outcome(code=Code.BAD_PLAN, message=why)
+            return Planned(ask.id, None, said, error.brain or brain.tag)
+        except OutOfBudget as error:
+            log.warning("goal %s: no call went out: %s", ask.id, error)
+            said = Outcome(code=Code.OUT_OF_BUDGET, message=error.said)
+            return Planned(ask.id, None, said, error.brain or brain.tag)
+        except BrainDown as error:
+            log.warning("goal %s: the brain is down: %s", ask.id, error)
+            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
+            return Planned(ask.id, None, said, error.brain or brain.tag)
+        return await _judge_thought(ask, thought, request, means, clock)
 
     return think
 
 
-def _tell_failure(goal: str, error: BadPlan | OutOfBudget | BrainDown) -> Outcome:
-    """Return what a goal ends with whose brain failed."""
-    if isinstance(error, BadPlan):
-        log.warning("goal %s: the brain wrote no plan: %s", goal, error)
-        why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
-        return Outcome(code=Code.BAD_PLAN, message=why)
-    if isinstance(error, OutOfBudget):
-        log.warning("goal %s: no call went out: %s", goal, error)
-        return Outcome(code=Code.OUT_OF_BUDGET, message=error.said)
-    log.warning("goal %s: the brain is down: %s", goal, error)
-    return Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
+async def _judge_thought(
+    ask: AskBrain,
+    thought: ThinkResult,
+    request: ThinkRequest,
+    means: Means,
+    clock: Callable[[], datetime],
+) -> Planned:
+    """Return a thought with the steps of its skills, held to a person's words and the robot."""
+    names = request.vocabulary
+    unasked, sure = await _hold_to_words(thought, request)
+    try:
+        unfolded = await unfold(thought.plan, _scene(request, clock))
+    except SkillFailure as failed:
+        log.warning("goal %s: %s", ask.id, failed)
+        return Planned(ask.id, None, failed.outcome, thought.brain)
+    made = unfolded.plan
+    runnable = means.runnable - (GIVEN if _points_beyond(made, ask) else frozenset())
+    rejection = check_plan(made, names, runnable, means.blind)
+    if rejection is not None:
+        return Planned(ask.id, None, rejection_outcome(rejection, names), thought.brain)
+    unasked = unfolded.find_unasked(unasked, by_grammar=thought.by_grammar)
+    return Planned(ask.id, made, None, thought.brain, unasked, sure)
 
 
 def _scene(request: ThinkRequest, clock: Callable[[], datetime]) -> SkillScene:
