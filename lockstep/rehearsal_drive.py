@@ -79,6 +79,7 @@ class RehearsalDrive:
         self._goal = self._give(steps)
         self._began_s = self._moved_s = self.world.now_s
         self._last, self._contacts = self.world.truth, self.world.contacts
+        self._faced_rad = self._last.yaw_rad
         self._trail: list[tuple[float, float]] = []
         self._stuck: str | None = None
 
@@ -121,10 +122,11 @@ class RehearsalDrive:
         account.seconds += LOOK_TICKS * TICK_S
         account.end = here
         moved_m = hypot(here.x_m - self._last.x_m, here.y_m - self._last.y_m)
-        turned_rad = abs(here.yaw_rad - self._last.yaw_rad)
-        if moved_m >= STILL_M or turned_rad >= STILL_M:
-            account.length_m += moved_m if moved_m >= STILL_M else 0.0
+        if moved_m >= STILL_M:
+            account.length_m += moved_m
             self._last, self._moved_s = here, world.now_s
+        if abs(here.yaw_rad - self._faced_rad) >= STILL_M:
+            self._faced_rad, self._moved_s = here.yaw_rad, world.now_s
         if world.contacts > self._contacts:
             account.contacts += world.contacts - self._contacts
             self._contacts = world.contacts
