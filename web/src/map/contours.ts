@@ -6,8 +6,8 @@ import { Cells, OCCUPIED } from "./cells";
 import type { Corner, Outline } from "./outline";
 import type { Grid } from "../wire/types";
 
-/** The steps of a slanted wall lie within a cell of the line; what is farther away is a shape. */
-export const TOLERANCE_CELLS = 1;
+/** The steps of a wall at 45 degrees lie 0.71 cells from its line; a cell would make corners of circles. */
+export const TOLERANCE_CELLS = 0.75;
 
 const known = new WeakMap<Grid, string>();
 /** How often outlines were worked out: a frame must not. */
