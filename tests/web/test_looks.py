@@ -19,7 +19,7 @@ pytestmark = pytest.mark.e2e
 AXE = ROOT / "web" / "node_modules" / "axe-core" / "axe.min.js"
 PHONE = (360, 740)
 LEAST_STOP_PX = 64
-TABS = ("robot", "missions", "log", "orders", "places", "objects", "drive")
+TABS = ("robot", "missions", "log", "orders", "places", "objects", "settings", "drive")
 
 
 def assert_fits(page: Page) -> None:
