@@ -59,6 +59,7 @@ def test_every_pin_has_hashes(repository: Path, name: str) -> None:
         ("requirements.lock", ("install",)),
         ("requirements-dev.lock", ("install", "dev")),
         ("requirements-attack.lock", ("install", "attack")),
+        ("requirements-extras.lock", ("install", "mcp", "mqtt", "foxglove", "traces")),
     ],
 )
 def test_lock_satisfies_pyproject(repository: Path, name: str, extras: tuple[str, ...]) -> None:
@@ -92,6 +93,7 @@ def test_the_extra_of_the_wheel_pins_what_the_lock_pins(repository: Path) -> Non
     assert asked <= set(found), "a dependency that nothing pins"
 
 
+EXTRAS = "requirements-extras.lock"
 FOR_OTHERS = {
     "httptools": "uvicorn's parser",
     "tzdata": "zoneinfo's time zones, where the system has none",
@@ -128,9 +130,9 @@ def test_each_package_that_running_needs_is_imported_or_named_with_its_user(
     by_import = packages_distributions()
     used = {canonicalize_name(one) for name in imported for one in by_import.get(name, [])}
     needed = {canonicalize_name(requirement.name) for requirement in wanted(repository)}
-    # Of the extra sherpa: its users say aloud that it is missing.
+    # Of extras: their users say aloud that it is missing.
     # And setuptools builds the package for a robot of ROS 2, over there.
-    used -= {"setuptools", "sherpa-onnx", "sherpa-onnx-core"}
+    used -= {"setuptools", "sherpa-onnx", "sherpa-onnx-core", *pins(repository / EXTRAS)} - needed
     # Of the extras mqtt, foxglove and traces, likewise; they name what they bring along, too.
     used -= {"aiomqtt", "paho-mqtt", "foxglove-sdk"}
     used -= {name for name in used if name.startswith("opentelemetry-")}
