@@ -82,7 +82,7 @@ def world_of(asked: DriveRequest, body: bytes, steps: tuple[Step, ...]) -> Drive
     site = replace(plain.site, places=(*plain.site.places, *asked.places))
     plain = replace(plain, site=site, vocabulary=vocabulary_of(site))
     cells, suspicions = body[: asked.cells_bytes], body[asked.cells_bytes :]
-    seen = _seen(asked, site.grid, cells + suspicions, robot.base.radius_m)
+    seen = _seen_cells(asked, site.grid, cells + suspicions, robot.base.radius_m)
     occupied = occupied_cells(site.grid) | seen
     home = home_of_cells(site.grid, occupied, begins, asked.site)
     world = DrivenWorld(
@@ -97,7 +97,9 @@ def world_of(asked: DriveRequest, body: bytes, steps: tuple[Step, ...]) -> Drive
     return world
 
 
-def _seen(asked: DriveRequest, grid: GridMap, cells: bytes, radius_m: float) -> NDArray[np.bool_]:
+def _seen_cells(
+    asked: DriveRequest, grid: GridMap, cells: bytes, radius_m: float
+) -> NDArray[np.bool_]:
     """Return the cells that what was seen last fills, off the robot itself."""
     seen = unpack_cells(cells, (grid.height, grid.width))
     columns, rows = np.meshgrid(np.arange(grid.width), np.arange(grid.height))

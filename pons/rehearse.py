@@ -98,7 +98,7 @@ def _print_driven(told: dict[str, Any]) -> None:
     print(f"  {pick('not simulated:', '未模拟：')} {left}")
 
 
-def _named(step: dict[str, Any]) -> str:
+def _step_name(step: dict[str, Any]) -> str:
     name = step["name"]
     what = step["kind"] if name is None else f"{step['kind']} {pick_of(name)}"
     return f"{step['index'] + 1}. {what}" + (
@@ -120,7 +120,7 @@ def _shown_line(step: dict[str, Any]) -> str:
         narrow_m, told = step["narrowest_m"], _figures(step)
         if narrow_m is not None:
             told += pick(f", narrowest {narrow_m:.2f} m", f"，最窄 {narrow_m:.2f} m")
-    return f"  {_named(step)}: {told}"
+    return f"  {_step_name(step)}: {told}"
 
 
 def _driven_line(step: dict[str, Any]) -> str:
@@ -137,7 +137,7 @@ def _driven_line(step: dict[str, Any]) -> str:
         told += f", {' '.join(step['rows'])}"
     if step["code"]:
         told += f" ({step['code']}{': ' + pick_of(step['message']) if step['message'] else ''})"
-    return f"  {_named(step)}: {told}"
+    return f"  {_step_name(step)}: {told}"
 
 
 def _sum_line(shown: dict[str, Any]) -> str:
