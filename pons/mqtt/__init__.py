@@ -12,6 +12,7 @@ import sys
 import tomllib
 from typing import TYPE_CHECKING
 
+from pons.stop import leave
 from pons.terminal import pick
 from processes.log_lines import begin_log
 
@@ -65,7 +66,10 @@ def run(settings: LaunchSettings) -> int:
             for number in (signal.SIGTERM, signal.SIGINT):
                 if task is not None:
                     asyncio.get_running_loop().add_signal_handler(number, task.cancel)
-            await gateway.run()
+            try:
+                await gateway.run()
+            except asyncio.CancelledError:
+                leave(EXIT_DONE)  # a request to a planner that hangs is not waited for
 
         asyncio.run(serve())
     except ModuleNotFoundError as missing:
@@ -76,6 +80,4 @@ def run(settings: LaunchSettings) -> int:
     except ConfigError as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_UNUSABLE
-    except asyncio.CancelledError:
-        pass
     return EXIT_DONE
