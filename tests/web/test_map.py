@@ -196,27 +196,3 @@ def test_a_place_is_dragged_or_moved_by_keys_and_stays_where_it_is_refused(
         page.keyboard.press("Enter")
     page.locator("#announcer", has_text="Moved").wait_for()
     assert plant(planner) != pytest.approx(FREE[1], abs=0.05)
-
-
-def test_two_fingers_zoom_and_turn_about_what_lies_under_them(opened: Open) -> None:
-    page = opened(PHONE, has_touch=True)
-    before = page.locator(".drawing").evaluate("(one) => one.style.width")
-    box = page.locator("#map").bounding_box()
-    assert box is not None
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    session = page.context.new_cdp_session(page)
-
-    def touch(kind: str, *points: tuple[float, float]) -> None:
-        at = [{"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(points)]
-        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
-
-    touch("touchStart", (-40, 0))
-    touch("touchStart", (-40, 0), (40, 0))
-    for step in range(1, 11):
-        touch("touchMove", (-40 - 2 * step, -6 * step), (40 + 2 * step, 6 * step))
-    touch("touchEnd")
-    page.locator("#compass").wait_for()
-    assert page.locator(".drawing").evaluate("(one) => one.style.width") != before
-    assert page.locator(".point-menu").count() == 0
-    page.tap("#compass")
-    page.locator("#compass").wait_for(state="detached")
