@@ -30,10 +30,14 @@ OWN_IDS = frozenset({"api", "cli", "page", "planner", "bridge", "owner"})
 
 
 class Role(StrEnum):
-    """Name how far a token's bearer may go."""
+    """Name how far a token's bearer may go; ``planner.api.access`` has the table of routes."""
 
     VIEWER = "viewer"
     OPERATOR = "operator"
+    DISPATCHER = "dispatcher"
+    """A person who gives the robot work, and neither powers nor steers it nor sets it up."""
+    AGENT = "agent"
+    """A program, such as an assistant: it gives goals and acts on its own alone."""
 
 
 class PeopleError(Exception):

@@ -88,6 +88,7 @@ def _run_command(words: list[str]) -> int:
     from pons.grammar import (  # after an order to stop
         EVAL,
         MAP,
+        MCP,
         MOCK_LLM,
         NAV2,
         ROBOT,
@@ -104,6 +105,8 @@ def _run_command(words: list[str]) -> int:
         from pons.mock_llm.command import main as mock_llm
 
         return mock_llm(words[1:])
+    if words[:1] == [MCP]:  # likewise; the SDK comes with an extra
+        return _serve_mcp(settings, words[1:])
     if words[:1] == [EVAL]:  # likewise; it starts nothing
         from pons.evals.command import main as evaluate
 
@@ -126,6 +129,17 @@ def _run_command(words: list[str]) -> int:
         given = ["--robot", str(settings.robot), "--home", str(settings.home)]
         return nav2([*given, *words[1:]])
     return _dispatch(settings, parser().parse_args(words), words)
+
+
+def _serve_mcp(settings: LaunchSettings, words: list[str]) -> int:
+    try:
+        from pons.mcp.command import main as serve
+    except ModuleNotFoundError as missing:
+        if missing.name not in ("mcp", "mcp_types"):
+            raise
+        print("mcp_missing: pip install 'pons-robot[mcp]'", file=sys.stderr)
+        return EXIT_USAGE
+    return serve(settings, words)
 
 
 def _describe_refusal(wrong: Exception) -> str | None:

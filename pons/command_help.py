@@ -207,6 +207,7 @@ HELP = {
         "pons people",
         'pons people add "Ana\'s phone"',
         "pons people add guest --role viewer",
+        "pons people add Claude --role agent",
         "pons people remove guest",
     ),
     "places": _entry(
@@ -245,6 +246,9 @@ HELP = {
     ),
     "eval": _entry(
         "score what a brain plans, on sentences",
+    ),
+    "mcp": _entry(
+        "serve this robot to an assistant that speaks MCP",
     ),
     "mock-llm": _entry(
         "serve a model that is none, with faults",

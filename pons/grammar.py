@@ -15,17 +15,19 @@ from pons.command_parser import CommandParser, add_command
 if TYPE_CHECKING:
     Words = argparse._SubParsersAction[CommandParser]  # noqa: SLF001  # it has no public name
 
+MCP = "mcp"
 MOCK_LLM = "mock-llm"
 EVAL = "eval"
 SITE = "site"
 MAP = "map"
 ROBOT = "robot"
 NAV2 = "nav2"
-APART = (EVAL, MOCK_LLM, SITE, MAP, ROBOT, NAV2)
+APART = (EVAL, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2)
 """They read their own words."""
 OPERATOR = ("arm", "disarm", "estop", "reset")
 """Acts of an operator."""
 LONGEST_FAULT_S = 3600.0
+PEOPLES_ROLES = ("operator", "viewer", "dispatcher", "agent")
 GOAL_STATES = (
     "queued", "planning", "needs_clarification", "awaiting_confirmation", "running", "paused",
     "succeeded", "failed", "cancelled", "refused",
@@ -200,7 +202,7 @@ def _people(words: Words) -> None:
     word = add_command(words, "people")
     word.add_argument("act", nargs="?", choices=("list", "add", "remove"), default="list")
     word.add_argument("name", nargs="?", help="whom to add (a name), or to remove (an id)")
-    word.add_argument("--role", choices=("operator", "viewer"), default="operator")
+    word.add_argument("--role", choices=PEOPLES_ROLES, default="operator")
     word.add_argument("--json", action="store_true", help="as JSON")
 
 

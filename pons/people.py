@@ -17,6 +17,12 @@ if TYPE_CHECKING:
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 PATH = "/v1/people"
+ROLES = {
+    "operator": "may use the robot",
+    "viewer": "may look and stop",
+    "dispatcher": "may give the robot work, and stop it",
+    "agent": "may give the robot work of its own, and stop it",
+}
 _BLOCKS = {(False, False): " ", (True, False): "▀", (False, True): "▄", (True, True): "█"}
 """Two modules of a QR code, one above the other, in one character; True is light."""
 
@@ -63,7 +69,11 @@ def _add(settings: LaunchSettings, name: str, role: str, *, as_json: bool) -> No
     if as_json:
         print(json.dumps({**made, "link": link}, ensure_ascii=False))
         return
-    print(f"{made['id']} may {'look and stop' if role == 'viewer' else 'use the robot'}.")
+    print(f"{made['id']} {ROLES[role]}.")
+    if role == "agent":
+        print(f"This token is told once (docs/mcp.md); who has it is {made['name']}:")
+        print(made["token"])
+        return
     print(f"This link is told once; who has it is {made['name']}:\n{link}")
     if sys.stdout.isatty():
         print(qr_text(link))

@@ -42,6 +42,25 @@ STOPPING_PATHS = frozenset({"/v1/stop", "/v1/estop", "/v1/disarm"})
 OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?|/v1/hand/?")
 """What a viewer may not even read: people's words and words out of pictures may stand in it. Nor
 may one open the socket of a hand on the stick."""
+_GOALS = r"/v1/goals|/v1/goals/[^/]+/(?:answer|cancel)|/v1/rehearsals"
+_READING = r"/healthz|/readyz|/v1/(?:robot|map|places|camera\.jpg|objects|localization|events)"
+_READING += r"|/v1/(?:goals|history|memory|usage|orders|people)|/v1/(?:goals|history)/[^/]+"
+MAY: dict[Role, tuple[tuple[frozenset[str], re.Pattern[str]], ...]] = {
+    Role.AGENT: (
+        (SAFE_METHODS, re.compile(_READING)),
+        (frozenset({"POST"}), re.compile(_GOALS)),
+    ),
+    Role.DISPATCHER: (
+        (SAFE_METHODS, re.compile(rf"{_READING}|/v1/(?:fence|marks|obstacles|voice|voice/live)")),
+        (
+            frozenset({"POST"}),
+            re.compile(rf"{_GOALS}|/v1/goals/[^/]+/(?:pause|resume|move|confirm)"),
+        ),
+        (frozenset({"POST"}), re.compile(r"/v1/voice(?:/hush)?")),
+    ),
+}
+"""The routes of the roles that are listed; a route that is absent, and so a new one, is refused.
+Everybody with a token may stop (``STOPPING_PATHS``)."""
 PEOPLE_PATH = "/v1/people"
 """The owner's to change: who could add people could add a way in that outlives a removal."""
 
@@ -100,6 +119,8 @@ class Access:
             return Role.VIEWER  # the page holds no secret, and a browser asks for it without token
         token = _token_of(headers, websocket=websocket)
         role = self._role(token)
+        if not _may(role, method, path):
+            raise AccessError(403, "person_needed", f"{method} {path[:80]} is not the {role}'s")
         changes = method not in SAFE_METHODS
         if changes and path.startswith(PEOPLE_PATH) and not self._is_owner(token):
             raise AccessError(403, "owner_needed", f"{method} {path[:80]} is the owner's alone")
@@ -109,7 +130,7 @@ class Access:
         if not websocket and method not in SAFE_METHODS and path not in STOPPING_PATHS:
             if method in TYPED_METHODS:
                 _check_type(headers.get("content-type", ""), BODY_TYPES.get(path, JSON_TYPES))
-            if role is not Role.OPERATOR:
+            if role is Role.VIEWER:
                 raise AccessError(403, "operator_needed", _viewers_limit(method, path))
         return role
 
@@ -168,6 +189,14 @@ class Access:
         came = "the token that came is not one of this planner's" if token else "no token came"
         detail = f"{came}; send Authorization: Bearer with the operator's or the viewer's token"
         raise AccessError(401, "token_needed", detail, guessed=bool(token))
+
+
+def _may(role: Role, method: str, path: str) -> bool:
+    """Return whether the table of a role has a route; a role without one is judged by kinds."""
+    if role not in MAY or (path in STOPPING_PATHS and method == "POST"):
+        return True
+    rows = MAY[role]
+    return any(method in methods and paths.fullmatch(path) for methods, paths in rows)
 
 
 def _viewers_limit(method: str, path: str) -> str:

@@ -12,14 +12,24 @@ from planner.api.listing import list_goals
 from planner.api.operator import act_behind, persons_act
 from planner.api.problems import HttpProblem
 from planner.api.rates import Rates
-from planner.api.schemas import MAX_GOAL_CHARACTERS, GoalMove, GoalOrder, GoalReply, NewGoal
+from planner.api.schemas import (
+    MAX_GOAL_CHARACTERS,
+    GoalMove,
+    GoalOrder,
+    GoalReply,
+    NewGoal,
+    OperatorProof,
+)
 from planner.brain.model_replies import GoalReplies
 from planner.language.catalogue import say
 from planner.language.sentence import SaidSentence, parse
+from planner.mission.agents import is_agents
 from planner.mission.api_view import recorded_goal
-from planner.mission.errors import MissionError, UnknownGoal
-from planner.people import name_asker
+from planner.mission.errors import MissionError, PersonMissing, UnknownGoal
+from planner.mission.state import AGENT_SOURCE
+from planner.people import ASKER, Role, name_asker
 from planner.plan import Goal, Language
+from wire import OpRequest
 
 STATUS = {
     "unknown_goal": 404,
@@ -29,10 +39,13 @@ STATUS = {
     "idempotency_conflict": 409,
     "idempotency_reserved": 422,
     "journal_unavailable": 503,
+    "not_own_goal": 403,
+    "person_needed": 403,
 }
 
 A_SECOND, AT_ONCE = 2.0, 50
-"""Goals and answers of one address. A person is slower; each costs a thought and a line on disk."""
+"""Goals and answers of one address, or of one agent. A person is slower; each costs a thought and a
+line on disk."""
 STOPPED_BUT_LONG = say("problem.stopped_but_long")
 
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", max_length=200)]
@@ -87,8 +100,9 @@ class GoalIntake:
         Raises:
             HttpProblem: ``too_many_goals``.
         """
-        address = address_of(request.client.host) if request.client else ""
-        wait_s = self._rates.wait_s(address)
+        source, address = goal_source(), request.client.host if request.client else ""
+        asker = source if is_agents(source) else address_of(address)  # it may share a person's
+        wait_s = self._rates.wait_s(asker)
         if wait_s is not None:
             detail = f"at most {AT_ONCE} at once, then {A_SECOND:g} a second; wait {wait_s:.1f} s"
             raise HttpProblem(429, "too_many_goals", detail)
@@ -99,21 +113,25 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
 
     @router.post("", status_code=202, operation_id="give_goal")
     async def give(new: NewGoal, request: Request, idempotency_key: IdempotencyKey = None) -> Goal:
-        """Give a goal, in words or by points of the map. An impossible one ends refused.
+        """Give a goal: words, points of the map, or steps. An impossible one ends refused.
 
         A plain yes or no answers what waits for one (a step's question, a plan, a brain's only
         offer), where nothing else can be meant.
         """
+        source = goal_source()
         if new.text is None:
+            if new.points is not None and is_agents(source):
+                raise PersonMissing
             door.judge_rate(request)
-            act = persons_act(services.robot, new.operator)
+            act = None if is_agents(source) else persons_act(services.robot, new.operator)
             goal_id = await goals.points.give(
-                new.steps,
+                new.given_steps,
                 language=new.language or Language.EN,
                 confirm=new.confirm,
                 replace=new.replace,
                 idempotency_key=idempotency_key,
                 act=act,
+                source=source,
                 by=new.source,
             )
             return await find_goal(services, goal_id, repeats=True)
@@ -125,7 +143,8 @@ def _giving(router: APIRouter, services: Services, door: GoalIntake) -> None:
                 confirm=new.confirm,
                 replace=new.replace,
                 idempotency_key=idempotency_key,
-                act=act_behind(services.robot, said, new.operator),
+                act=_act_of(services, source, said, new.operator),
+                source=source,
                 by=new.source,
             )
         except UnknownGoal as former:
@@ -166,8 +185,8 @@ def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:
 
     @router.post("/{goal_id}/cancel", operation_id="cancel_goal")
     async def cancel(goal_id: str) -> Goal:
-        """End a goal; a moving robot ramps to a stop."""
-        return await goals.cancel(goal_id)
+        """End a goal; a moving robot ramps to a stop. An agent ends what it gave."""
+        return await goals.cancel(goal_id, source=goal_source())
 
     @router.post("/{goal_id}/pause", operation_id="pause_goal")
     async def pause(goal_id: str) -> Goal:
@@ -189,10 +208,13 @@ def _acting(router: APIRouter, services: Services, door: GoalIntake) -> None:
 
     @router.post("/{goal_id}/answer", operation_id="answer_goal")
     async def answer(goal_id: str, reply: GoalReply, request: Request) -> Goal:
-        """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act."""
-        said = await door.judge(reply.text, request)
-        act = act_behind(services.robot, said, reply.operator)
-        return await goals.answer(goal_id, reply.text, act=act, by=reply.source)
+        """Answer a goal's question, or say yes or no to its plan; a yes is an operator's act.
+
+        Of an agent, its own goal's question about the order, or a plain no: ``person_needed`` else.
+        """
+        said, source = await door.judge(reply.text, request), goal_source()
+        act = _act_of(services, source, said, reply.operator)
+        return await goals.answer(goal_id, reply.text, act=act, by=reply.source, source=source)
 
     @router.post("/{goal_id}/move", operation_id="move_goal")
     async def move(goal_id: str, where: GoalMove) -> Goal:
@@ -222,6 +244,20 @@ async def find_goal(services: Services, goal_id: str, *, repeats: bool = False) 
             raise
         detail = f"this key made goal {goal_id}, whose record is kept no more; nothing is done"
         raise HttpProblem(409, "goal_forgotten", detail) from None
+
+
+def goal_source() -> str:
+    """Return whose goals a request may reach: an agent's own, else those of all people."""
+    asker = ASKER.get()
+    is_agent = asker is not None and asker.role is Role.AGENT
+    return f"{AGENT_SOURCE}{asker.id}" if asker is not None and is_agent else "api"
+
+
+def _act_of(
+    services: Services, source: str, said: SaidSentence, given: OperatorProof | None
+) -> OpRequest | None:
+    """Return the resume that comes with a sentence; an agent's clears no hold."""
+    return None if is_agents(source) else act_behind(services.robot, said, given)
 
 
 def problem(error: MissionError) -> HttpProblem:

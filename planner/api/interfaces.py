@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from planner.orders.factory import StandingOrders
     from planner.people import People
     from planner.perception import Picture, Sight, Thing
-    from planner.plan import Goal, GoToPose, Language, Means
+    from planner.plan import Goal, Language, Means, Step
     from planner.rehearsal import Rehearser
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
@@ -53,18 +53,19 @@ class LayerSource(Protocol):
     def report(self) -> ObstacleReport | None: ...
 
 
-class PointIntake(Protocol):
-    """Take goals by points of the map."""
+class StepIntake(Protocol):
+    """Take goals by points of the map and by other steps."""
 
     async def give(
         self,
-        points: tuple[GoToPose, ...],
+        steps: tuple[Step, ...],
         *,
         language: Language,
         confirm: bool = False,
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
+        source: str = "api",
         by: str = "api",
     ) -> str:
         """Take a goal in and return its id; raises MissionError with a stable code."""
@@ -87,6 +88,7 @@ class Goals(Protocol):
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
+        source: str = "api",
         by: str = "api",
     ) -> Goal: ...
 
@@ -97,7 +99,7 @@ class Goals(Protocol):
     def obstacles(self) -> LayerSource | None: ...
 
     @property
-    def points(self) -> PointIntake: ...
+    def points(self) -> StepIntake: ...
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, with any other meaning besides."""
@@ -111,7 +113,7 @@ class Goals(Protocol):
 
     def goals(self, limit: int = 50) -> Sequence[Goal]: ...
 
-    async def cancel(self, goal_id: str) -> Goal: ...
+    async def cancel(self, goal_id: str, *, source: str = "api") -> Goal: ...
 
     async def pause(self, goal_id: str) -> Goal: ...
 
@@ -122,8 +124,9 @@ class Goals(Protocol):
     ) -> Goal: ...
 
     async def answer(
-        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api"
-    ) -> Goal: ...
+        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api",
+        source: str = "api",
+    ) -> Goal: ...  # fmt: skip
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal: ...
 

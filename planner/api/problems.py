@@ -55,6 +55,7 @@ SAYINGS = {
     "voice_timed_out": _AGAIN,
     "operator_needed": say("problem.operator_needed"),
     "owner_needed": say("problem.owner_needed"),
+    "person_needed": say("problem.person_needed"),
     "unknown_person": say("problem.unknown_person"),
     "person_exists": say("problem.person_exists"),
     "people_full": say("problem.people_full"),

@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictBool, m
 from maps.errors import BilingualError
 from planner.language.catalogue import say
 from planner.people import name_asker
-from planner.plan import GoToPose, Language
+from planner.plan import GIVEN, MAX_STEPS, GoToPose, Language, Step, list_nodes
 from wire import Proof, TrialAct
 from wire.bounded_types import Count, Fingerprint, Name
 from wire.geometry import Metres, Mps, Radps, Yaw
@@ -61,7 +61,7 @@ class GoalPoint(Body):
 
 
 class NewGoal(Body):
-    """Give a goal in words, or by points of the map, in a row."""
+    """Give a goal in words, by points of the map in a row, or by steps of the vocabulary."""
 
     text: Text | None = None
     source: Source = "api"
@@ -69,6 +69,8 @@ class NewGoal(Body):
     points: Annotated[tuple[GoalPoint, ...], Field(min_length=1, max_length=20)] | None = None
     map_id: Fingerprint | None = None
     """The map that the points are on."""
+    steps: Annotated[tuple[Step, ...], Field(min_length=1, max_length=MAX_STEPS)] | None = None
+    """The whole plan: no brain reads it, and it passes the same check as a brain's."""
     language: Language | None = None
     confirm: StrictBool = False
     """Show the plan and wait for a yes before the first step."""
@@ -79,17 +81,19 @@ class NewGoal(Body):
     """On a robot of metal: a proof of kind resume, which clears what a stop has held."""
 
     @model_validator(mode="after")
-    def _words_or_points(self) -> NewGoal:
-        if (self.text is None) is (self.points is None):
+    def _given_once(self) -> NewGoal:
+        if sum(each is not None for each in (self.text, self.points, self.steps)) != 1:
             raise law_broken("text_or_points")
+        if any(node.step.kind in GIVEN for node in list_nodes(self.steps or ())):
+            raise law_broken("points_in_steps")
         if (self.points is None) is not (self.map_id is None):
             raise law_broken("points_need_map")
         return self
 
     @property
-    def steps(self) -> tuple[GoToPose, ...]:
-        """Return the points as steps of a plan; none of a goal in words."""
-        return tuple(
+    def given_steps(self) -> tuple[Step, ...]:
+        """Return the steps, or the points as steps; none of a goal in words."""
+        return self.steps or tuple(
             GoToPose(map_id=self.map_id or "", **point.model_dump()) for point in self.points or ()
         )
 

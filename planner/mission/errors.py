@@ -78,6 +78,24 @@ class ReservedKey(MissionError):
         super().__init__(key=key[:64], prefix=RESERVED_KEYS)
 
 
+class NotOwnGoal(MissionError):
+    """An agent asks something of a goal that it did not give."""
+
+    code = "not_own_goal"
+
+    def __init__(self, goal_id: str) -> None:
+        super().__init__(shown=goal_id[:64])
+
+
+class PersonMissing(MissionError):
+    """An agent asks for what is a person's alone."""
+
+    code = "person_needed"
+
+    def __init__(self) -> None:
+        super().__init__()
+
+
 class JournalDown(MissionError):
     """The journal cannot be written, so no goal may start."""
 

@@ -16,10 +16,10 @@ from planner.plan import (
     ChangedOrder,
     Clarify,
     Code,
-    GoToPose,
     Language,
     Outcome,
     Refuse,
+    Step,
     StepPlan,
 )
 from planner.site.site_view import SiteView
@@ -60,8 +60,8 @@ class Submitted:
     """It is said to the planner itself, or answers: no order that needs room among the others."""
     changed: ChangedOrder | None = None
     """What it makes of the order before it."""
-    points: tuple[GoToPose, ...] = ()
-    """What a person pointed at on the map, in a row: its whole plan, and no brain is asked."""
+    points: tuple[Step, ...] = ()
+    """What it is given as, in place of words: its whole plan, and no brain is asked."""
     also: Bilingual | None = None
     """What was done beside the stop that these words were: told with it."""
 

@@ -1,7 +1,8 @@
-"""Take goals that a person points at on the map, and judge each point before anything moves.
+"""Take goals that are given as steps, and judge each before anything moves.
 
-The points are the goal's whole plan: no brain is asked, and no sentence is read. A point that can't
-be stood on, or can't be reached, refuses the goal with its reason.
+The steps are the goal's whole plan: no brain is asked, and no sentence is read. They pass the same
+check as a brain's. A point of the map is such a step, and one that can't be stood on, or can't be
+reached, refuses the goal with its reason.
 """
 
 from __future__ import annotations
@@ -10,11 +11,13 @@ from typing import TYPE_CHECKING
 
 from maps.grid import FREE, UNKNOWN
 from planner.language.catalogue import message
+from planner.language.place_lists import rejection_outcome
 from planner.language.plan_words import tell_steps
+from planner.mission.agents import is_agents
 from planner.mission.events import Planned, Submitted
 from planner.mission.reception import receive_points
 from planner.mission.skills.drive_to_place import SEES_FROM_M
-from planner.plan import Code, Language, Outcome, StepPlan, say_same
+from planner.plan import GIVEN, Code, GoToPose, Language, Outcome, StepPlan, check_plan
 from planner.site import PlaceRefusal
 from planner.site.polygon import contains
 from wire import Pose2
@@ -26,7 +29,7 @@ if TYPE_CHECKING:
     from planner.mission.place_survey import RobotSurvey
     from planner.mission.request_keys import Repeats
     from planner.mission.tasks import Think
-    from planner.plan import GoToPose
+    from planner.plan import Step
     from planner.site import KnownPlaces, Site
     from wire import OpRequest
 
@@ -38,8 +41,8 @@ _BY_THE_WAY = {
 """What a search for the way says of a point; anything else says that none was made."""
 
 
-class PointGoals:
-    """Give goals by points of the map, and plan them."""
+class StepGoals:
+    """Give goals by points of the map and by other steps, and plan them."""
 
     def __init__(
         self,
@@ -56,43 +59,52 @@ class PointGoals:
 
     async def give(
         self,
-        points: tuple[GoToPose, ...],
+        steps: tuple[Step, ...],
         *,
         language: Language = Language.EN,
         confirm: bool = False,
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
+        source: str = "api",
         by: str = "api",
     ) -> str:
         """Take the goal in and return its id, or that of the goal which this request made before.
 
         Raises:
             QueueFull, IdempotencyConflict, ReservedKey, JournalDown: as of a sentence.
+            PersonMissing: an agent wants to end what runs.
         """
         await self._repeats.look_up(idempotency_key)
-        goal_id, text = self._clocks.new_id(), tell_steps(points, say_same).of(language)
-        given = Submitted(goal_id, text, language, confirm, replace, points=points, by=by)
+        goal_id = self._clocks.new_id()
+        text = tell_steps(steps, self._places.vocabulary.name).of(language)
+        given = Submitted(
+            goal_id, text, language, confirm, replace, points=steps, source=source, by=by
+        )
         heard = receive_points(self._loop.book, given, idempotency_key, self._repeats)
         if heard.refused is not None:
             raise heard.refused
         if heard.repeats is not None:
             return heard.repeats
         self._repeats.remember(heard.request)
-        self._loop.keep_act(goal_id, act)
+        self._loop.keep_act(goal_id, None if is_agents(source) else act)
         self._loop.accepted.note(goal_id, self._clocks.monotonic())
         self._loop.event(given, heard.request)
         await self._repeats.ensure_written(self._loop, goal_id, heard.request)
         return goal_id
 
     async def think(self, ask: AskBrain) -> Planned:
-        """Plan a goal that was given by points; have any other understood."""
+        """Plan a goal that was given by steps; have any other understood."""
         mission = self._loop.book.missions.get(ask.id)
         if mission is None or not mission.points or mission.steps or mission.replies:
             return await self._otherwise(ask)
-        refused = await self._find_refusal(mission.points)
-        plan = StepPlan(steps=mission.points) if refused is None else None
-        return Planned(ask.id, plan, refused)
+        plan, means = StepPlan(steps=mission.points), self._loop.book.means
+        rejection = check_plan(plan, self._places.vocabulary, means.plannable | GIVEN, means.blind)
+        if rejection is not None:
+            return Planned(ask.id, None, rejection_outcome(rejection, self._places.vocabulary))
+        points = tuple(step for step in mission.points if isinstance(step, GoToPose))
+        refused = await self._find_refusal(points) if points else None
+        return Planned(ask.id, plan if refused is None else None, refused)
 
     async def _find_refusal(self, points: tuple[GoToPose, ...]) -> Outcome | None:
         """Return why the first point that is not to be reached is not; None: all are."""

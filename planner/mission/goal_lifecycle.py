@@ -111,7 +111,7 @@ def submit(turn: Transaction, event: Submitted) -> None:
         first=event.first,
         doubtful_stop=event.doubtful_stop,
         interrupted=event.interrupts,
-        given_under_hold=hold_now(turn),
+        given_under_hold=hold_now(turn, event.source),
         source=event.source,
         by=event.by,
         map_id=turn.book.facts.map_id,

@@ -101,7 +101,7 @@ def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) 
         unix_s=turn.now_s + turn.book.wall_offset_s,
     )
     answers = (*mission.answers, answer)[-MAX_ANSWERS:]
-    return turn.put(mission, answers=answers, given_under_hold=hold_now(turn))
+    return turn.put(mission, answers=answers, given_under_hold=hold_now(turn, mission.source))
 
 
 def note_answer(turn: Transaction, mission: Mission, text: str) -> Mission:

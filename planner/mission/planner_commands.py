@@ -32,6 +32,7 @@ from planner.language.reading import CommandReading, OrdersReading
 from planner.language.schedule import ChangeOrders, OrderCommand
 from planner.language.sentence import SaidSentence, parse
 from planner.mission import events
+from planner.mission.agents import NEEDED, hold_to_agent, is_agents, may_say
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
@@ -101,6 +102,8 @@ class PlannerCommands:
         mission = self._loop.book.missions.get(ask.id)
         if self.desk is not None and mission is not None and is_of_order(mission):
             return await self._think_of_order(self.desk, ask, mission)
+        if mission is not None and is_agents(mission.source):
+            return await self._think_of_agent(ask, mission)
         if mission is not None:
             by_person = ask.text == mission.words  # the newest, and not a model's question
             said, words = parse(ask.own_words if by_person else ""), _WordsOf(self, mission)
@@ -127,6 +130,17 @@ class PlannerCommands:
             return None
         return Planned(ask.id, await self.carry_out(reading.intent, mission))
 
+    async def _think_of_agent(self, ask: AskBrain, mission: Mission) -> Planned:
+        """Answer an agent's questions to the planner; refuse what is a person's to say to it."""
+        by_agent = ask.text == mission.words
+        said, words = parse(ask.own_words if by_agent else ""), _WordsOf(self, mission)
+        for reading in readings(said, words, BY_THE_PLANNER):
+            if not isinstance(reading, CommandReading) or not may_say(reading.intent):
+                return Planned(ask.id, NEEDED)
+            if (taken := await self._take(reading, ask, mission)) is not None:
+                return taken
+        return hold_to_agent(take_back_offers(await self._brain(ask), self.refuse_offer))
+
     async def _think_of_order(self, desk: OrderDesk, ask: AskBrain, mission: Mission) -> Planned:
         """Plan the goal of a standing order; a reminder's words are fixed, and no brain's."""
         sentence, reminder = desk.sentence_of(mission.source)
@@ -145,7 +159,9 @@ class PlannerCommands:
         "Stop checking the door every evening" stops the robot first, and then means what it says.
         """
         command = parse(given.text).intent
-        if self.desk is None or not given.stop or not isinstance(command, ChangeOrders):
+        if is_agents(given.source) or not isinstance(command, ChangeOrders):
+            return None  # an agent's stop stops, and that is all
+        if self.desk is None or not given.stop:
             return None  # a doubtful stop is thought about, and carried out then
         return await self.desk.change(command, given.language)
 

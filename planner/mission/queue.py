@@ -21,7 +21,7 @@ from planner.mission.activity import (
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended_outcome, failure
 from planner.mission.skills.skill_state import SkillStateBase
-from planner.mission.state import Mission
+from planner.mission.state import AGENT_SOURCE, Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
 from planner.plan import (
@@ -85,10 +85,15 @@ def release_answered(turn: Transaction) -> None:
             turn.put(mission, held=False)
 
 
-def hold_now(turn: Transaction) -> str | None:
-    """Return the id of the bridge's hold that stands now, or None."""
+def hold_now(turn: Transaction, source: str = "") -> str | None:
+    """Return the id of the bridge's hold that stands now, or None.
+
+    Args:
+        turn: the book.
+        source: of the goal that is spoken for: no hold is an agent's to clear, so it is told none.
+    """
     held = turn.book.status.held if turn.book.status is not None else None
-    return held.id if held is not None else None
+    return held.id if held is not None and not source.startswith(AGENT_SOURCE) else None
 
 
 def acknowledge_hold(turn: Transaction) -> None:

@@ -21,9 +21,10 @@ from planner.language.commands import ResumeCommand as GoOn
 from planner.language.readers import AT_THE_DOOR, readings, stop
 from planner.language.reading import AnswerReading, ChangeReading, HaltReading
 from planner.language.sentence import SaidSentence
+from planner.mission import agents
 from planner.mission.allowed_commands import refusal
 from planner.mission.bridge_status import at_rest
-from planner.mission.errors import IdempotencyConflict, QueueFull, ReservedKey
+from planner.mission.errors import IdempotencyConflict, PersonMissing, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of
 from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
@@ -83,6 +84,8 @@ def receive(
         key: the Idempotency-Key of the request.
         repeats: the requests that came before.
     """
+    if agents.is_agents(given.source):
+        return _receive_agent(book, said, given, now_s, key, repeats)
     full, may_answer = not has_room(book), not (given.confirm or given.replace)
     goals = _AtHand(book, now_s, leaning, may_answer=leaning is None and may_answer)
     reading = next(readings(said, goals, AT_THE_DOOR), None)
@@ -110,13 +113,35 @@ def receive(
     return Reception(marked, takes_back=ends, request=request_of(given, key))
 
 
+def _receive_agent(
+    book: MissionState, said: SaidSentence, given: Submitted, now_s: float,
+    key: str | None, repeats: Repeats | None,
+) -> Reception:  # fmt: skip
+    """Return the decision on an agent's sentence: a stop alone, or an order that leans on no other.
+
+    It answers no question and takes nothing back, and nothing that a stop is said with is done.
+    """
+    if stop(said, _AtHand(book, now_s)) is not None:
+        return Reception(replace(given, stop=True), stops=True)
+    return _receive_plainly(book, given, key, repeats)
+
+
 def receive_points(
     book: MissionState, given: Submitted, key: str | None, repeats: Repeats
 ) -> Reception:
-    """Return the decision on a goal that was given by points of the map: no words are read."""
+    """Return the decision on a goal that was given by points or other steps: no words are read."""
+    return _receive_plainly(book, given, key, repeats)
+
+
+def _receive_plainly(
+    book: MissionState, given: Submitted, key: str | None, repeats: Repeats | None
+) -> Reception:
+    by_agent = agents.is_agents(given.source)
+    if by_agent and given.replace:
+        return Reception(given, refused=PersonMissing())
     if (known := _find_known(given, key, repeats)) is not None:
         return known
-    if not has_room(book):
+    if not has_room(book) or (by_agent and not agents.has_room(book)):
         open_goals = sum(not m.has_ended for m in book.missions.values())
         return Reception(given, refused=QueueFull(open_goals))
     return Reception(given, request=request_of(given, key))
@@ -216,14 +241,17 @@ class AnswerReception:
 
 
 def receive_answer(
-    book: MissionState, said: SaidSentence, goal_id: str, now_s: float, by: str = "api"
-) -> AnswerReception:
+    book: MissionState, said: SaidSentence, goal_id: str, now_s: float,
+    by: str = "api", source: str = "api",
+) -> AnswerReception:  # fmt: skip
     """Return the decision on words that came as the answer to a goal.
 
     What is said to the planner itself ("where are you", "hold on") is done beside the question,
     which stays open: but for a plain no, which answers the goal that it names and no other, no
     sentence that needs no proof is ever taken as the answer.
     """
+    if agents.is_agents(source):
+        return _receive_agents_answer(book, said, Reply(goal_id, said.text, by), now_s, source)
     intent = said.intent
     ends = Cancel(goal_id) if isinstance(intent, Replace) else None
     if said.orders_stop:
@@ -245,6 +273,20 @@ def receive_answer(
     if (said.stays_put and not declines) or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
     return AnswerReception(command=Reply(goal_id, said.text, by))
+
+
+def _receive_agents_answer(
+    book: MissionState, said: SaidSentence, reply: Reply, now_s: float, source: str
+) -> AnswerReception:
+    """Return the decision on an agent's answer: a stop, or what its own goal asks the giver."""
+    halts = said.consent is None and _AtHand(book, now_s).may_stop(said)
+    if said.orders_stop or halts:
+        return AnswerReception(stops=True)
+    refused = agents.refuse_answer(book, reply, source, declines=said.consent is False)
+    if refused is not None:
+        return AnswerReception(refused=refused)
+    takes_back = isinstance(said.intent, TakeBack)
+    return AnswerReception(command=Cancel(reply.id) if takes_back else reply)
 
 
 def hears_stop(book: MissionState, said: SaidSentence, now_s: float) -> bool:

@@ -15,7 +15,7 @@ from planner.brain.image_questions import Looker
 from planner.brain.interface import Brain
 from planner.bridge_client import Identity, Link, StopResult
 from planner.language.sentence import parse
-from planner.mission.allowed_commands import refusal
+from planner.mission.agents import is_agents, refuse_command
 from planner.mission.api_view import goal_of
 from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
@@ -34,7 +34,7 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
-from planner.mission.given_points import PointGoals
+from planner.mission.given_points import StepGoals
 from planner.mission.journal_sync import Disk
 from planner.mission.loop import Loop
 from planner.mission.memory_lookup import MemoryLookup
@@ -101,7 +101,7 @@ class Missions:
         self._lookup = MemoryLookup(self.loop, self._clocks.wall)
         self.commands = PlannerCommands(self._ask_brain, self.memory, self.loop, link, self._lookup)
         think = self.commands.think
-        self.points = PointGoals(self.loop, self.memory, survey, self._repeats, self._clocks, think)
+        self.points = StepGoals(self.loop, self.memory, survey, self._repeats, self._clocks, think)
         self.standing = StandingGoals(self.loop, self._ask_brain, self._repeats)
         self.obstacles: ScanSender | None = None
         self.memory.listen(self._on_places)
@@ -191,6 +191,7 @@ class Missions:
         if idempotency_key is not None and not self.hears_stop(text):  # a stop waits for no disk
             await self._repeats.look_up(idempotency_key)
         said, goal_id = parse(text), self._clocks.new_id()
+        act = None if is_agents(source) else act
         spoken = language or said.language
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source, by=by)
         heard = receive(
@@ -224,9 +225,9 @@ class Missions:
         """Return whether a question waits for a yes or no."""
         return awaits_answer(self.loop.book)
 
-    async def cancel(self, goal_id: str) -> Goal:
-        """End a goal. Raises UnknownGoal, BadState."""
-        return await self._command(Cancel(goal_id))
+    async def cancel(self, goal_id: str, *, source: str = "api") -> Goal:
+        """End a goal. Raises UnknownGoal, BadState; NotOwnGoal: of an agent, another's."""
+        return await self._command(Cancel(goal_id), source=source)
 
     async def pause(self, goal_id: str) -> Goal:
         """Keep a goal's place, standing. Raises UnknownGoal, BadState."""
@@ -246,10 +247,12 @@ class Missions:
         return await self._command(Confirm(goal_id, by), act)
 
     async def answer(
-        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api"
-    ) -> Goal:
-        """Do what ``receive_answer`` makes of an answer. Raises UnknownGoal, BadState."""
-        heard = receive_answer(self.loop.book, parse(text), goal_id, self._clocks.monotonic(), by)
+        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api",
+        source: str = "api",
+    ) -> Goal:  # fmt: skip
+        """Do what ``receive_answer`` makes of an answer, or raise its refusal."""
+        now_s = self._clocks.monotonic()
+        heard = receive_answer(self.loop.book, parse(text), goal_id, now_s, by, source)
         if heard.refused is not None:
             raise heard.refused
         if heard.stops:
@@ -257,7 +260,8 @@ class Missions:
             if heard.command is not None:
                 self.loop.obey(heard.command)
         elif (command := heard.command) is not None:
-            await self._command(command, act if isinstance(command, Reply) else None)
+            acts = isinstance(command, Reply) and not is_agents(source)
+            await self._command(command, act if acts else None)
         if heard.sentence is not None:
             await self.submit(heard.sentence, act=act, by=by, leaning=heard.lean)
         return self.goal(goal_id)
@@ -345,8 +349,10 @@ class Missions:
     def _on_places(self) -> None:
         self.loop.event(Known(self.memory.facts))
 
-    async def _command(self, command: Command, act: OpRequest | None = None) -> Goal:
-        if (error := refusal(self.loop.book, command)) is not None:
+    async def _command(
+        self, command: Command, act: OpRequest | None = None, source: str = "api"
+    ) -> Goal:
+        if (error := refuse_command(self.loop.book, command, source)) is not None:
             raise error
         if isinstance(command, Resume):
             self.loop.clear_hold(act)

@@ -25,11 +25,11 @@ from planner.plan import (
     Frozen,
     GoalAnswer,
     GoalState,
-    GoToPose,
     Language,
     Means,
     Outcome,
     PlanRecord,
+    Step,
     StepRecord,
     StepState,
     root_of,
@@ -39,6 +39,8 @@ from wire import Status
 
 ORDER_SOURCE = "order:"
 """What the source of every goal of a standing order begins with."""
+AGENT_SOURCE = "agent:"
+"""What the source of every goal of an agent begins with (planner/mission/agents.py)."""
 RESERVED_KEYS = "standing-order:"
 """What the Idempotency-Key of every such goal begins with, and no other request's may."""
 MAX_OPEN = 33
@@ -60,8 +62,8 @@ class Mission(Frozen):
     reason: str | None = None
     changed: ChangedOrder | None = None
     """What its text makes of the order before it: "again", "no, the study"."""
-    points: tuple[GoToPose, ...] = ()
-    """What a person pointed at on the map, in a row: its whole plan."""
+    points: tuple[Step, ...] = ()
+    """What it was given as, in place of words: points of the map or other steps, its whole plan."""
     replies: tuple[str, ...] = ()
     """What the person answered to our questions, in order."""
     questions: tuple[str, ...] = ()

@@ -56,6 +56,7 @@ class Code(StrEnum):
     NOT_FOUND = "not_found"
     LOST_PERSON = "lost_person"
     POINT_REFUSED = "point_refused"
+    PERSON_NEEDED = "person_needed"
     POINT_NOT_GIVEN = "point_not_given"
     POINT_OF_OTHER_MAP = "point_of_other_map"
     POINT_OUTSIDE_MAP = "point_outside_map"

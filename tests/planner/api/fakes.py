@@ -30,7 +30,7 @@ from planner.navigation import (
 )
 from planner.people import People
 from planner.perception import Picture, Sight, Thing
-from planner.plan import Goal, GoalState, GoToPose, Language, Means
+from planner.plan import Goal, GoalState, Language, Means, Step
 from planner.rehearsal import Rehearser
 from planner.setup_switch import ProcessSwitch
 from planner.site import FenceProposals, KnownPlaces, Site
@@ -96,17 +96,18 @@ class FakeGoals:
 
     async def give(
         self,
-        points: tuple[GoToPose, ...],
+        steps: tuple[Step, ...],
         *,
         language: Language,
         confirm: bool = False,
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
+        source: str = "api",
         by: str = "api",
     ) -> str:
         self.doors.append(by)
-        self.calls.append(("give", points, language, confirm, replace, idempotency_key))
+        self.calls.append(("give", steps, language, confirm, replace, idempotency_key))
         self.acts.append(act)
         return "g1"
 
@@ -125,6 +126,7 @@ class FakeGoals:
         replace: bool = False,
         idempotency_key: str | None = None,
         act: OpRequest | None = None,
+        source: str = "api",
         by: str = "api",
     ) -> Goal:
         self.calls.append(("submit", text, language, confirm, replace, idempotency_key))
@@ -144,7 +146,7 @@ class FakeGoals:
         self.calls.append((what, goal_id))
         return self.goal(goal_id)
 
-    async def cancel(self, goal_id: str) -> Goal:
+    async def cancel(self, goal_id: str, *, source: str = "api") -> Goal:
         return await self._act("cancel", goal_id)
 
     async def pause(self, goal_id: str) -> Goal:
@@ -159,8 +161,9 @@ class FakeGoals:
         raise BadState(goal_id, "confirm", GoalState.RUNNING, ("awaiting_confirmation",))
 
     async def answer(
-        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api"
-    ) -> Goal:
+        self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api",
+        source: str = "api",
+    ) -> Goal:  # fmt: skip
         self.doors.append(by)
         self.acts.append(act)
         self.calls.append(("answer", goal_id, text))

@@ -64,12 +64,12 @@ def test_things_are_listed_with_their_ages_and_names() -> None:
 def test_an_operator_forgets_one_or_all() -> None:
     services = seeing()
     client = client_of(services)
-    body = {"headers": {"content-type": "application/json"}}
-    missing = client.delete("/v1/objects/cup_9", **body)
+    client.headers["content-type"] = "application/json"
+    missing = client.delete("/v1/objects/cup_9")
     assert (missing.status_code, missing.json()["code"]) == (404, "unknown_object")
     assert "cup_1" in missing.json()["detail"]
-    assert client.delete("/v1/objects/cup_1", **body).json() == {"forgotten": ["cup_1"]}
-    assert client.delete("/v1/objects", **body).json() == {"forgotten": ["chair_1"]}
+    assert client.delete("/v1/objects/cup_1").json() == {"forgotten": ["cup_1"]}
+    assert client.delete("/v1/objects").json() == {"forgotten": ["chair_1"]}
     refused = client_of(seeing(), VIEWER).delete(
         "/v1/objects", headers={"content-type": "application/json",
                                 "authorization": "Bearer " + "v" * 16}

@@ -47,7 +47,10 @@ class Caller:
         self._client, self._headers = client, {"authorization": f"Bearer {token}"}
 
     async def post(self, path: str, body: dict[str, Any] | None = None) -> httpx.Response:
-        return await self._client.post(path, json=body or {}, headers=self._headers)
+        return await self.ask("POST", path, body or {})
+
+    async def ask(self, method: str, path: str, body: object) -> httpx.Response:
+        return await self._client.request(method, path, json=body, headers=self._headers)
 
     async def give(self, text: str) -> str:
         answer = await self.post("/v1/goals", {"text": text})

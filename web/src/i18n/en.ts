@@ -434,6 +434,7 @@ export const en = {
   "reason.point_outside_fence": "outside the fence",
   "reason.point_unreachable": "no way there",
   "reason.point_unchecked": "could not be checked",
+  "reason.person_needed": "only a person says that",
   "reason.point_not_given": "nobody gave that point",
   "reason.bad_plan": "what the model planned was not usable",
 
@@ -696,6 +697,8 @@ export const en = {
   "people.role": "Role",
   "people.operator": "may use the robot",
   "people.viewer": "may look and stop",
+  "people.dispatcher": "may give the robot work",
+  "people.agent": "is a program; may give work of its own",
   "people.add": "Add",
   "people.remove": "Remove",
   "people.remove_yes": "Yes, remove",

@@ -424,6 +424,7 @@ export const zh: Record<Key, string> = {
   "reason.point_outside_fence": "在围栏之外",
   "reason.point_unreachable": "没有路",
   "reason.point_unchecked": "无法检查",
+  "reason.person_needed": "这件事只能由人来说",
   "reason.point_not_given": "没有人给出这个点",
   "reason.bad_plan": "计划不可用",
 
@@ -683,6 +684,8 @@ export const zh: Record<Key, string> = {
   "people.role": "权限",
   "people.operator": "可以使用机器人",
   "people.viewer": "可以查看和停止",
+  "people.dispatcher": "可以给机器人派活",
+  "people.agent": "是程序，只能派自己的活",
   "people.add": "添加",
   "people.remove": "移除",
   "people.remove_yes": "是，移除",

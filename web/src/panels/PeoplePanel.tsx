@@ -7,6 +7,7 @@ import { addPerson, listPeople, removePerson } from "../net/api";
 import { attempt, tell } from "../state/acts";
 import type { NewPerson, Person, PersonRole } from "../wire/types";
 
+const ROLES: readonly PersonRole[] = ["operator", "viewer", "dispatcher", "agent"];
 const people = signal<readonly Person[] | null>(null); // null: not ours to see
 const name = signal("");
 const role = signal<PersonRole>("operator");
@@ -71,8 +72,11 @@ export function PeoplePanel() {
           value={role.value}
           onChange={(event) => (role.value = event.currentTarget.value as PersonRole)}
         >
-          <option value="operator">{t("people.operator")}</option>
-          <option value="viewer">{t("people.viewer")}</option>
+          {ROLES.map((each) => (
+            <option key={each} value={each}>
+              {t(`people.${each}`)}
+            </option>
+          ))}
         </select>
         <button type="submit" disabled={name.value.trim() === ""}>
           {t("people.add")}

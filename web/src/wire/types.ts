@@ -551,7 +551,7 @@ export type StandingOrders = {
   readonly orders: readonly StandingOrder[];
 };
 
-export type PersonRole = "operator" | "viewer";
+export type PersonRole = "operator" | "viewer" | "dispatcher" | "agent";
 
 export type Person = {
   readonly id: string;
