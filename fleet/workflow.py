@@ -45,8 +45,8 @@ def launch(desk: Desk, url: str) -> None:
     """Start the engine on a database; it takes up the workflows of before. Call it in the loop."""
     _desks[:] = [desk]
     config: DBOSConfig = {
-        "name": "pons-fleet", "system_database_url": url, "application_version": APPLICATION_VERSION,
-        "executor_id": EXECUTOR, "log_level": "WARNING", "enable_otlp": False,
+        "name": "pons-fleet", "system_database_url": url, "executor_id": EXECUTOR,
+        "application_version": APPLICATION_VERSION, "log_level": "WARNING", "enable_otlp": False,
     }  # fmt: skip
     DBOS(config=config)
     DBOS.launch()

@@ -87,6 +87,7 @@ def _run_command(words: list[str]) -> int:
         return 0
     from pons.grammar import (  # after an order to stop
         EVAL,
+        FLEET,
         MAP,
         MCP,
         MOCK_LLM,
@@ -107,6 +108,8 @@ def _run_command(words: list[str]) -> int:
         return mock_llm(words[1:])
     if words[:1] == [MCP]:  # likewise; the SDK comes with an extra
         return _serve_mcp(settings, words[1:])
+    if words[:1] == [FLEET]:  # likewise, and a process of its own
+        return _become_fleet(settings, words[1:])
     if words[:1] == [EVAL]:  # likewise; it starts nothing
         from pons.evals.command import main as evaluate
 
@@ -129,6 +132,18 @@ def _run_command(words: list[str]) -> int:
         given = ["--robot", str(settings.robot), "--home", str(settings.home)]
         return nav2([*given, *words[1:]])
     return _dispatch(settings, parser().parse_args(words), words)
+
+
+def _become_fleet(settings: LaunchSettings, words: list[str]) -> int:
+    from importlib.util import find_spec
+
+    if find_spec("dbos") is None:
+        print("fleet_missing: pip install 'pons-robot[fleet]'", file=sys.stderr)
+        return EXIT_USAGE
+    sys.stdout.flush()
+    environment = {**os.environ, "PONS_HOME": str(settings.home)}
+    os.execve(sys.executable, [sys.executable, "-m", "fleet", *words], environment)
+    return EXIT_USAGE  # not reached: this process is the fleet's now
 
 
 def _serve_mcp(settings: LaunchSettings, words: list[str]) -> int:

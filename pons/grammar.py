@@ -15,6 +15,7 @@ from pons.command_parser import CommandParser, add_command
 if TYPE_CHECKING:
     Words = argparse._SubParsersAction[CommandParser]  # noqa: SLF001  # it has no public name
 
+FLEET = "fleet"
 MCP = "mcp"
 MOCK_LLM = "mock-llm"
 EVAL = "eval"
@@ -22,7 +23,7 @@ SITE = "site"
 MAP = "map"
 ROBOT = "robot"
 NAV2 = "nav2"
-APART = (EVAL, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2)
+APART = (EVAL, FLEET, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2)
 """They read their own words."""
 OPERATOR = ("arm", "disarm", "estop", "reset")
 """Acts of an operator."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
 import pwd
@@ -18,11 +19,15 @@ from typing import TYPE_CHECKING, Any
 import httpx
 import pytest
 
+from fleet.robots import add_robot
+from fleet.service import own_home
+from fleet.store import Store
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 ROOT = Path(__file__).resolve().parents[2]
-PATIENCE_S = 60.0
+PATIENCE_S = 90.0
 
 
 def until(look: Callable[[], Any], patience_s: float = PATIENCE_S) -> Any:
@@ -92,9 +97,14 @@ class RunningFleet:
         )  # fmt: skip
 
     def add(self, *robots: StubRobot) -> None:
-        for robot in robots:
-            done = self.run("add", robot.url)
-            assert done.returncode == 0, done.stderr
+        """Add robots as ``pons fleet add`` does."""
+        folder = own_home(self.home)
+        store = Store(self.database)
+        try:
+            for robot in robots:
+                asyncio.run(add_robot(store, folder, robot.url, "", None))
+        finally:
+            store.close()
 
     def start(self, *settings: str) -> None:
         """Start it, with constants set to others: ``fleet.watch.SILENT_S = 1.0``."""

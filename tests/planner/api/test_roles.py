@@ -23,7 +23,7 @@ OWNERS = ("/v1/people", "/v1/people/x")
 """What only the token that the planner was started with may change."""
 _LOOKS = """/healthz /readyz /v1/robot /v1/map /v1/places /v1/camera.jpg /v1/objects
 /v1/localization /v1/goals /v1/goals/x /v1/history /v1/history/x /v1/memory /v1/usage /v1/orders
-/v1/people"""
+/v1/people /v1/capabilities"""
 AGENTS = {
     "POST": ["/v1/goals", "/v1/goals/x/answer", "/v1/goals/x/cancel", "/v1/rehearsals"],
     "GET": _LOOKS.split(),
