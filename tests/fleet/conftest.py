@@ -7,7 +7,6 @@ import json
 import os
 import pwd
 import shutil
-import signal
 import socket
 import subprocess
 import sys
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 import pytest
+import sqlalchemy as sa
 
 from fleet.robots import add_robot
 from fleet.service import own_home
@@ -105,6 +105,8 @@ class RunningFleet:
                 asyncio.run(add_robot(store, folder, robot.url, "", None))
         finally:
             store.close()
+        if self.process is not None:
+            self.await_ready(*robots)
 
     def start(self, *settings: str) -> None:
         """Start it, with constants set to others: ``fleet.watch.SILENT_S = 1.0``."""
@@ -121,10 +123,17 @@ class RunningFleet:
         except httpx.HTTPError:
             return False
 
-    def kill(self, by: signal.Signals = signal.SIGKILL) -> None:
+    def kill(self) -> None:
         if self.process is not None:
-            self.process.send_signal(by)
-            self.process.wait(30)
+            self.process.kill()
+            self.process.wait()
+            self.process = None
+
+    def end(self) -> None:
+        """Ask it to end, as a service manager does."""
+        if self.process is not None:
+            self.process.terminate()
+            self.process.wait(PATIENCE_S)
             self.process = None
 
     def give(
@@ -151,12 +160,14 @@ class RunningFleet:
             pytest.fail(f"not {states}: {json.dumps(self.mission(mission_id))}")
         return found
 
-    def await_ready(self, count: int) -> None:
-        def look() -> bool:
-            robots = self.client.get("/v1/robots").json()["robots"]
-            return sum(robot["state"] == "ready" for robot in robots) == count
+    def states(self) -> dict[str, str]:
+        """Return the state of each robot, or its trouble."""
+        robots = self.client.get("/v1/robots").json()["robots"]
+        return {robot["name"]: robot["state"] for robot in robots}
 
-        until(look)
+    def await_ready(self, *robots: StubRobot) -> None:
+        names = {robot.name for robot in robots}
+        until(lambda: names <= {name for name, at in self.states().items() if at == "ready"})
 
 
 @pytest.fixture
@@ -211,14 +222,23 @@ def postgres() -> Iterator[str]:
         shutil.rmtree(place, ignore_errors=True)
 
 
+@pytest.fixture(scope="module")
+def fleet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningFleet]:
+    """Return a fleet on SQLite that runs for all stories of a file; each names its own robots."""
+    folder = tmp_path_factory.mktemp("fleet")
+    running = RunningFleet(folder / "home", f"sqlite:///{folder / 'fleet.sqlite'}")
+    running.start("fleet.watch.SILENT_S = 2.0")
+    yield running
+    running.kill()
+    running.client.close()
+
+
 @pytest.fixture(params=["sqlite", "postgres"])
-def fleet(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[RunningFleet]:
+def own_fleet(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[RunningFleet]:
     """Return a fleet without robots, not yet started, on each kind of database."""
     if request.param == "sqlite":
         database = f"sqlite:///{tmp_path / 'fleet.sqlite'}"
     else:
-        import sqlalchemy as sa
-
         server = request.getfixturevalue("postgres")
         url = sa.make_url(server).set(drivername="postgresql+psycopg")
         engine = sa.create_engine(url, isolation_level="AUTOCOMMIT")

@@ -32,7 +32,8 @@ def judge(accepted: list[str], journals: list[Path], database: str) -> Verdict:
         with sqlite3.connect(file) as disk:
             begun.update(row[0] for row in disk.execute("SELECT key FROM acts WHERE act='begun'"))
         disk.close()
-    engine = sa.create_engine(database)
+    url = database.replace("postgresql://", "postgresql+psycopg://")
+    engine = sa.create_engine(url)
     with engine.connect() as connection:
         rows = connection.execute(sa.text("SELECT id, state FROM fleet_missions")).all()
     engine.dispose()
