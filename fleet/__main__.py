@@ -102,11 +102,11 @@ def _serve(given: argparse.Namespace, home: Path) -> int:
 def _add(given: argparse.Namespace, home: Path) -> int:
     from fleet.robots import add_robot
     from fleet.service import database_url, own_home
-    from fleet.store import Store
+    from fleet.store import FleetStore
 
     folder = own_home(home)
     token = sys.stdin.readline().strip() if given.token == "-" else given.token
-    store = Store(database_url(folder, os.environ))
+    store = FleetStore(database_url(folder, os.environ))
     try:
         adding = add_robot(store, folder, given.url, token, given.name,
                            again=given.again, expected=given.sha256)  # fmt: skip

@@ -34,13 +34,13 @@ Limit = Annotated[int, Query(ge=1, le=200)]
 Names = Annotated[tuple[str, ...], Field(min_length=1, max_length=1_000)]
 
 
-class Message(BaseModel):
+class FleetBody(BaseModel):
     """Refuse unknown fields: a misspelt option must not be ignored."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
-class NewMission(Message):
+class NewMission(FleetBody):
     """Give an order in words, or as steps for the robots; the words may say to whom."""
 
     text: Annotated[str, Field(max_length=MAX_TEXT_CHARACTERS)] | None = None
@@ -72,19 +72,19 @@ class NewMission(Message):
         return Addressee("named" if len(names) == 1 else "each", names)
 
 
-class MissionAnswer(Message):
+class MissionAnswer(FleetBody):
     """Answer what a mission asks."""
 
     text: Annotated[str, Field(min_length=1, max_length=MAX_TEXT_CHARACTERS)]
 
 
-class MissionCancel(Message):
+class MissionCancel(FleetBody):
     """End a mission; ``give_up`` ends one whose robot is silent, without knowing what it did."""
 
     give_up: StrictBool = False
 
 
-class FleetStop(Message):
+class FleetStop(FleetBody):
     """Stop these robots; without names, all."""
 
     robots: Names | None = None

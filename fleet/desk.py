@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from pathlib import Path
 
-    from fleet.store import Store
+    from fleet.store import FleetStore
 
 log = logging.getLogger(__name__)
 
@@ -41,7 +41,7 @@ _CHINESE = re.compile(r"[\u4e00-\u9fff]")
 class Desk:
     """Hold the robots' watches, and move missions on."""
 
-    def __init__(self, store: Store, home: Path) -> None:
+    def __init__(self, store: FleetStore, home: Path) -> None:
         self.store, self.home = store, home
         self.watches: dict[str, RobotWatch] = {}
         self.running: dict[str, asyncio.Event] = {}
@@ -268,7 +268,7 @@ class Desk:
     # Looking --------------------------------------------------------------------------------------
 
     async def find(self, mission_id: str) -> MissionRow:
-        """Return one mission; raises as ``Store.mission``."""
+        """Return one mission; raises as ``FleetStore.mission``."""
         return await asyncio.to_thread(self.store.mission, mission_id)
 
     async def newest(self, limit: int) -> list[MissionRow]:
@@ -281,7 +281,7 @@ class Desk:
 
     async def show_robots(self) -> list[dict[str, Any]]:
         """Return all robots as the API shows them."""
-        held = await asyncio.to_thread(self.store.held)
+        held = await asyncio.to_thread(self.store.missions_at_robots)
         return [show_robot(row, self.watches[name], held.get(name))
                 for name, row in sorted(self._rows.items()) if name in self.watches]  # fmt: skip
 

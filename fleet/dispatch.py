@@ -14,7 +14,7 @@ from fleet.choice import is_able, rank
 from fleet.records import CANCELLED, REFUSED, WAITING, MissionRow, RobotRow
 
 if TYPE_CHECKING:
-    from fleet.store import Store
+    from fleet.store import FleetStore
     from fleet.watch import RobotWatch
 
 log = logging.getLogger(__name__)
@@ -26,7 +26,7 @@ class Dispatcher:
     """Hold what is known of the robots, and choose."""
 
     def __init__(
-        self, store: Store, watches: dict[str, RobotWatch], rows: dict[str, RobotRow]
+        self, store: FleetStore, watches: dict[str, RobotWatch], rows: dict[str, RobotRow]
     ) -> None:
         self._store, self._watches, self._rows = store, watches, rows
         self.work = asyncio.Event()
@@ -51,7 +51,7 @@ class Dispatcher:
 
     async def _give_robots(self) -> None:
         self._rows.update({row.name: row for row in await asyncio.to_thread(self._store.robots)})
-        held = set(await asyncio.to_thread(self._store.held))
+        held = set(await asyncio.to_thread(self._store.missions_at_robots))
         for mission in await asyncio.to_thread(self._store.waiting):
             await self._give_robot(mission, held)
 

@@ -40,7 +40,7 @@ class RobotRefusal(Exception):
 
 
 @dataclass(slots=True)
-class RobotLink:
+class FleetLink:
     """Hold the connections to one robot."""
 
     name: str
@@ -102,7 +102,7 @@ class RobotLink:
         if key:
             headers["idempotency-key"] = key
         try:
-            answer = await self._connected().request(
+            answer = await self._open_client().request(
                 method, path, params=dict(query or {}), json=body, headers=headers
             )
         except httpx.HTTPError as error:
@@ -113,7 +113,7 @@ class RobotLink:
             raise RobotAway(f"{self.url}: {str(error) or type(error).__name__}") from None
         return self._judge(answer)
 
-    def _connected(self) -> httpx.AsyncClient:
+    def _open_client(self) -> httpx.AsyncClient:
         if self._client is None:
             self._client = httpx.AsyncClient(
                 base_url=self.url, verify=self.pin.context(), timeout=TIMEOUT, trust_env=False,

@@ -38,7 +38,7 @@ class Pin:
         return _trusting(self.pem, is_leaf=self.kind == "leaf")
 
     @property
-    def shown(self) -> str:
+    def fingerprint(self) -> str:
         """Return the SHA-256 as ``pons tls`` shows it."""
         return ":".join(self.sha256[at : at + 2] for at in range(0, 64, 2)).upper()
 

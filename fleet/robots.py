@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from fleet.addressee import is_free_name
 from fleet.errors import FleetError
-from fleet.link import TOKEN_REFUSED, RobotAway, RobotBusy, RobotLink, RobotRefusal
+from fleet.link import TOKEN_REFUSED, FleetLink, RobotAway, RobotBusy, RobotRefusal
 from fleet.pin import Pin, clean_url, take_pin
 from fleet.records import RobotRow
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 ROLE = "dispatcher"
 
 
-def link_of(robot: RobotRow, home: Path) -> RobotLink:
+def link_of(robot: RobotRow, home: Path) -> FleetLink:
     """Return the way to a robot that was added."""
     kind = robot.pin_kind
     pin = Pin(kind, robot.pin_sha256, robot.pin_pem)  # type: ignore[arg-type]  # as it was kept
     token = read_token(home, robot.name)
-    return RobotLink(robot.name, robot.url, robot.robot_id, pin, token)
+    return FleetLink(robot.name, robot.url, robot.robot_id, pin, token)
 
 
 async def add_robot(
@@ -56,7 +56,7 @@ async def add_robot(
     pin = take_pin(address)
     if expected is not None and expected.replace(":", "").strip().lower() != pin.sha256:
         raise FleetError("pin_mismatch", name=address)
-    link = RobotLink(name or address, address, "", pin, token)
+    link = FleetLink(name or address, address, "", pin, token)
     try:
         card = await link.get("/v1/capabilities")
         await _judge_role(link, token)
@@ -81,7 +81,7 @@ async def add_robot(
     return row
 
 
-async def _judge_role(link: RobotLink, token: str) -> None:
+async def _judge_role(link: FleetLink, token: str) -> None:
     """Accept a dispatcher's token, and on loopback none at all.
 
     Raises:

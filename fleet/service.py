@@ -14,7 +14,7 @@ from fleet.access import LOOPBACK_NAMES, FleetAccess
 from fleet.api import build_app
 from fleet.desk import Desk
 from fleet.pin import is_loopback
-from fleet.store import Store
+from fleet.store import FleetStore
 from wire import ConfigError
 
 if TYPE_CHECKING:
@@ -65,9 +65,9 @@ def serve(
     if not is_loopback(host) and not (token and certificate and key):
         detail = f"{host} can be reached from outside; set PONS_FLEET_TOKEN and give --tls-cert"
         raise ConfigError("tls_needed", f"{detail} and --tls-key, or listen at 127.0.0.1")
-    with _taken(folder / "up.lock"):
+    with _lock_folder(folder / "up.lock"):
         url = database_url(folder, environment)
-        store = Store(url)
+        store = FleetStore(url)
         guard = _take_database(store)
         names = {name for name in environment.get("PONS_ALLOWED_HOSTS", "").split(",") if name}
         access = FleetAccess(
@@ -87,7 +87,7 @@ def serve(
             store.close()
 
 
-def _taken(file: Path) -> TextIO:
+def _lock_folder(file: Path) -> TextIO:
     """Return the lock of a folder, held until it is closed.
 
     Raises:
@@ -107,7 +107,7 @@ def _taken(file: Path) -> TextIO:
     return opened
 
 
-def _take_database(store: Store) -> sa.Connection | None:
+def _take_database(store: FleetStore) -> sa.Connection | None:
     """Hold a Postgres database for this service alone; a file is held by its folder's lock.
 
     Raises:

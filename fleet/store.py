@@ -38,7 +38,7 @@ MOST_WAITING = 20_000
 _AT_WORK = (OFFERED, AT_ROBOT, ASKING, UNKNOWN)
 
 
-class Store(RobotStore):
+class FleetStore(RobotStore):
     """Read and write missions, holds and stops beside the robots' rows."""
 
     # Orders ---------------------------------------------------------------------------------------
@@ -162,7 +162,7 @@ class Store(RobotStore):
         with self.engine.begin() as connection:
             return [mission_row(row) for row in connection.execute(wanted).mappings()]
 
-    def held(self) -> dict[str, str]:
+    def missions_at_robots(self) -> dict[str, str]:
         """Return which mission each busy robot has."""
         with self.engine.begin() as connection:
             return {row.robot: row.mission for row in connection.execute(sa.select(holds))}

@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING, Any
 
 from sqlalchemy.exc import SQLAlchemyError
 
-from fleet.link import RobotAway, RobotBusy, RobotLink, RobotRefusal
+from fleet.link import FleetLink, RobotAway, RobotBusy, RobotRefusal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from fleet.records import MissionRow
-    from fleet.store import Store
+    from fleet.store import FleetStore
 
 log = logging.getLogger(__name__)
 
@@ -48,7 +48,7 @@ class RobotWatch:
     """Hold what is known of one robot now, and keep its rows true."""
 
     def __init__(
-        self, link: RobotLink, store: Store, wake: Callable[[Iterable[str]], None]
+        self, link: FleetLink, store: FleetStore, wake: Callable[[Iterable[str]], None]
     ) -> None:
         self.link, self._store, self._wake = link, store, wake
         self.name = link.name
@@ -113,7 +113,7 @@ class RobotWatch:
         await asyncio.to_thread(self._store.confirm_stops, self.name, ids)
 
     async def reconcile(self, mission: MissionRow) -> None:
-        """Ask for a mission's goal by its id. Raises as ``RobotLink.ask``."""
+        """Ask for a mission's goal by its id. Raises as ``FleetLink.ask``."""
         if mission.goal_id is None:
             return
         try:
@@ -129,7 +129,7 @@ class RobotWatch:
     async def close_key(self, mission: MissionRow) -> bool:
         """Make sure that a mission which may have been sent never begins; False: the robot has it.
 
-        Then its goal is bound to it. Raises as ``RobotLink.ask``.
+        Then its goal is bound to it. Raises as ``FleetLink.ask``.
         """
         try:
             await self.link.post("/v1/goals", CLOSING, key=mission.id)

@@ -21,7 +21,7 @@ import sqlalchemy as sa
 
 from fleet.robots import add_robot
 from fleet.service import own_home
-from fleet.store import Store
+from fleet.store import FleetStore
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -99,7 +99,7 @@ class RunningFleet:
     def add(self, *robots: StubRobot) -> None:
         """Add robots as ``pons fleet add`` does."""
         folder = own_home(self.home)
-        store = Store(self.database)
+        store = FleetStore(self.database)
         try:
             for robot in robots:
                 asyncio.run(add_robot(store, folder, robot.url, "", None))

@@ -11,7 +11,7 @@ import pytest
 from fleet.addressee import Addressee
 from fleet.errors import FleetError
 from fleet.records import MissionRow, RobotRow, question_of, show_mission
-from fleet.store import Store
+from fleet.store import FleetStore
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,8 +33,8 @@ def kept_mission() -> MissionRow:
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    made = Store(f"sqlite:///{tmp_path / 'fleet.sqlite'}", wall=lambda: 1000.0)
+def store(tmp_path: Path) -> Iterator[FleetStore]:
+    made = FleetStore(f"sqlite:///{tmp_path / 'fleet.sqlite'}", wall=lambda: 1000.0)
     made.keep_robot(R1, again=False)
     made.keep_robot(R2, again=False)
     yield made
@@ -42,7 +42,7 @@ def store(tmp_path: Path) -> Iterator[Store]:
 
 
 def give(
-    store: Store, number: int, way: Addressee | None = None, key: str | None = None
+    store: FleetStore, number: int, way: Addressee | None = None, key: str | None = None
 ) -> MissionRow:
     who = way or Addressee("any")
     wanted: list[tuple[str, Addressee, dict[str, Any], bool]] = [
@@ -62,39 +62,39 @@ def give(
     ],
 )
 def test_the_same_robot_twice_and_two_with_one_name(
-    store: Store, robot: RobotRow, code: str
+    store: FleetStore, robot: RobotRow, code: str
 ) -> None:
     with pytest.raises(FleetError) as refused:
         store.keep_robot(robot, again=False)
     assert refused.value.code == code
 
 
-def test_a_robot_is_renewed_with_its_cursor_kept(store: Store) -> None:
+def test_a_robot_is_renewed_with_its_cursor_kept(store: FleetStore) -> None:
     store.apply_goals("r1", [], cursor=7)
     store.keep_robot(replace(R1, pin_sha256="d" * 64, url="https://10.0.0.9"), again=True)
     renewed = store.robots()[0]
     assert (renewed.pin_sha256, renewed.url, renewed.cursor) == ("d" * 64, "https://10.0.0.9", 7)
 
 
-def test_a_robot_holds_one_mission_until_it_ends(store: Store) -> None:
+def test_a_robot_holds_one_mission_until_it_ends(store: FleetStore) -> None:
     first, second = give(store, 1), give(store, 2)
     assert store.claim(first, "r1") is not None
     assert store.claim(first, "r2") is None
     assert store.claim(second, "r1") is None
-    assert store.held() == {"r1": "m-1"}
+    assert store.missions_at_robots() == {"r1": "m-1"}
     store.end("m-1", "succeeded")
     assert store.end("m-1", "failed").state == "succeeded"
     assert store.claim(second, "r1") is not None
 
 
-def test_the_same_key_makes_the_same_mission_and_another_order_is_told(store: Store) -> None:
+def test_the_same_key_makes_the_same_mission_and_another_order_is_told(store: FleetStore) -> None:
     assert give(store, 1, key="k").id == give(store, 2, key="k").id
     with pytest.raises(FleetError) as refused:
         store.accept("o-3", "x", "other", "k", [], "x")
     assert refused.value.code == "idempotency_conflict"
 
 
-def test_changes_are_listed_once_and_in_order(store: Store) -> None:
+def test_changes_are_listed_once_and_in_order(store: FleetStore) -> None:
     for number in range(5):
         give(store, number)
     first, cursor = store.changed_since(0, 2)
@@ -105,7 +105,7 @@ def test_changes_are_listed_once_and_in_order(store: Store) -> None:
     assert store.changed_since(last, 10) == ([], last)
 
 
-def test_a_stop_bars_what_was_ordered_before_it(store: Store) -> None:
+def test_a_stop_bars_what_was_ordered_before_it(store: FleetStore) -> None:
     named, anyone = give(store, 1, Addressee("named", ("r1",))), give(store, 2)
     assert store.stop("s-1", ["r1"], forever=False) == ["m-1"]
     assert store.mission(named.id).reason == "stopped_first"
@@ -118,7 +118,7 @@ def test_a_stop_bars_what_was_ordered_before_it(store: Store) -> None:
     assert store.stop_state("s-1") == (["r1"], [])
 
 
-def test_silence_makes_unknown_only_what_was_sent(store: Store) -> None:
+def test_silence_makes_unknown_only_what_was_sent(store: FleetStore) -> None:
     sent, unsent = give(store, 1), give(store, 2)
     store.claim(sent, "r1")
     store.claim(unsent, "r2")
@@ -131,7 +131,7 @@ def test_silence_makes_unknown_only_what_was_sent(store: Store) -> None:
 
 
 def test_a_goal_of_a_mission_that_people_ended_tells_without_changing_its_state(
-    store: Store,
+    store: FleetStore,
 ) -> None:
     store.claim(give(store, 1), "r1")
     store.bind("m-1", {"id": "g", "state": "running"})
@@ -144,7 +144,7 @@ def test_a_goal_of_a_mission_that_people_ended_tells_without_changing_its_state(
     assert store.withdrawals("r1") == []
 
 
-def test_a_lost_goal_is_told_and_not_taken_back_by_an_answer(store: Store) -> None:
+def test_a_lost_goal_is_told_and_not_taken_back_by_an_answer(store: FleetStore) -> None:
     store.claim(give(store, 1), "r1")
     store.bind("m-1", {"id": "g", "state": "running"})
     store.mark_lost("m-1")
