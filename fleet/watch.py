@@ -89,7 +89,8 @@ class RobotWatch:
                 self._note_heard()
                 log.info("%s: %s", self.name, busy)
             except RobotRefusal as refused:
-                self.is_ready, self.trouble = False, refused.code
+                self.is_ready = self.link.is_proven = False
+                self.trouble = refused.code
                 pause_s = min(pause_s * 1.5, 5.0)
                 await asyncio.to_thread(self._mark_silent_if_due)
             except SQLAlchemyError as error:
@@ -158,12 +159,12 @@ class RobotWatch:
             card = await self.link.prove()
             await asyncio.to_thread(self._store.update_card, self.name, card)
             self._reconciled_s = float("-inf")
-        self._note_heard()
         if self._is_marked or self._reconciled_s == float("-inf"):
             await asyncio.to_thread(self._store.mark_heard, self.name)
             self._is_marked = False
         await self._withdraw()
         await self._follow()
+        self._note_heard()
         await self._look()
         is_first, self.is_ready, self.trouble = not self.is_ready, True, None
         if is_first:
