@@ -144,12 +144,19 @@ def problem(code: str) -> dict[str, Any]:
 class Door(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     journal: Journal
+    authority = b""
     timeout = 5.0
 
     def log_message(self, format: str, *args: Any) -> None:  # noqa: A002  # the library's name
         pass
 
     def do_GET(self) -> None:
+        if self.path == "/ca.crt" and self.authority:
+            self.send_response(200)
+            self.send_header("content-length", str(len(self.authority)))
+            self.end_headers()
+            self.wfile.write(self.authority)
+            return
         self._serve(None)
 
     def do_POST(self) -> None:
@@ -234,10 +241,14 @@ class Server(ThreadingHTTPServer):
         pass
 
 
-def make_server(folder: Path, name: str, port: int, tls: ssl.SSLContext | None = None) -> Server:
+def make_server(
+    folder: Path, name: str, port: int, tls: ssl.SSLContext | None = None, authority: bytes = b""
+) -> Server:
     """Return a robot's server, its journal taken up."""
     journal = Journal(folder, name)
-    server = Server(("127.0.0.1", port), type("OwnDoor", (Door,), {"journal": journal}))
+    server = Server(
+        ("127.0.0.1", port), type("OwnDoor", (Door,), {"journal": journal, "authority": authority})
+    )
     if tls is not None:
         server.socket = tls.wrap_socket(server.socket, server_side=True)
 

@@ -23,14 +23,15 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def tls_robot(folder: Path, name: str) -> Iterator[str]:
+def tls_robot(folder: Path, name: str, *, gives_authority: bool = False) -> Iterator[str]:
     """Serve a robot over TLS, with an authority of its own; yield its URL."""
     home = folder / name
     home.mkdir()
     made = issue(home, "robot", {"127.0.0.1"}, {"localhost"}, datetime.now(UTC))
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
     context.load_cert_chain(made.planner)
-    server = make_server(home, name, 0, context)
+    authority = made.authority.read_bytes() if gives_authority else b""
+    server = make_server(home, name, 0, context, authority)
     thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.05})
     thread.start()
     try:
@@ -56,6 +57,19 @@ def test_a_certificate_is_pinned_and_another_robots_is_refused(tmp_path: Path) -
     with tls_robot(tmp_path, "r1") as url, tls_robot(tmp_path, "r2") as other:
         pin = take_pin(url)
         assert pin.kind == "leaf"  # this door gives no authority away
+        assert card_of(url, pin) == "r1"
+        with pytest.raises(RobotRefusal) as refused:
+            card_of(other, pin)
+        assert refused.value.code == "pin_mismatch"
+
+
+def test_an_authority_is_pinned_where_it_is_given(tmp_path: Path) -> None:
+    with (
+        tls_robot(tmp_path, "r1", gives_authority=True) as url,
+        tls_robot(tmp_path, "r2", gives_authority=True) as other,
+    ):
+        pin = take_pin(url)
+        assert pin.kind == "authority"
         assert card_of(url, pin) == "r1"
         with pytest.raises(RobotRefusal) as refused:
             card_of(other, pin)
