@@ -211,6 +211,8 @@ class FleetStore(RobotStore):
             for goal in goals:
                 mine = (missions.c.robot == robot) & (missions.c.goal_id == goal["id"])
                 for mission in _select(connection, mine):
+                    if mission.goal_state in GOAL_ENDED and goal["state"] not in GOAL_ENDED:
+                        continue  # asked for earlier than what is known; an end is the last word
                     self._change(connection, missions.c.id == mission.id, _of_goal(mission, goal))
                     touched.append(mission.id)
             if cursor is not None:

@@ -166,3 +166,11 @@ def test_a_lost_goal_is_told_and_not_taken_back_by_an_answer(store: FleetStore) 
 def test_what_a_goal_asks(goal: dict[str, Any], kind: str | None) -> None:
     asked = question_of(goal)
     assert (asked or {}).get("kind") == kind
+
+
+def test_an_answer_that_comes_late_takes_no_end_back(store: FleetStore) -> None:
+    store.claim(give(store, 1), "r1")
+    store.bind("m-1", {"id": "g", "state": "running"})
+    store.apply_goals("r1", [{"id": "g", "state": "succeeded"}])
+    assert store.apply_goals("r1", [{"id": "g", "state": "running"}]) == []
+    assert store.mission("m-1").goal_state == "succeeded"
