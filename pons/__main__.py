@@ -108,6 +108,8 @@ def _run_apart(settings: LaunchSettings, word: str, *more: str) -> int | None:
         return mock_llm(words)
     if word == grammar.MCP:
         return _serve_mcp(settings, words)
+    if word == grammar.FLEET:
+        return _become_fleet(settings, words)
     if word == grammar.EVAL:
         from pons.evals.command import main as evaluate
 
@@ -133,6 +135,18 @@ def _run_apart(settings: LaunchSettings, word: str, *more: str) -> int | None:
 
         return nav2(["--robot", str(settings.robot), "--home", str(settings.home), *words])
     return None
+
+
+def _become_fleet(settings: LaunchSettings, words: list[str]) -> int:
+    from importlib.util import find_spec
+
+    if find_spec("dbos") is None:
+        print("fleet_missing: pip install 'pons-robot[fleet]'", file=sys.stderr)
+        return EXIT_USAGE
+    sys.stdout.flush()
+    environment = {**os.environ, "PONS_HOME": str(settings.home)}
+    os.execve(sys.executable, [sys.executable, "-m", "fleet", *words], environment)
+    return EXIT_USAGE  # not reached: this process is the fleet's now
 
 
 def _serve_mcp(settings: LaunchSettings, words: list[str]) -> int:

@@ -283,6 +283,9 @@ HELP = {
     "eval": _entry(
         "score what a brain plans, on sentences",
     ),
+    "fleet": _entry(
+        "give orders to several robots as to one",
+    ),
     "mcp": _entry(
         "serve this robot to an assistant that speaks MCP",
     ),

@@ -15,6 +15,7 @@ from pons.command_parser import CommandParser, add_command
 if TYPE_CHECKING:
     Words = argparse._SubParsersAction[CommandParser]  # noqa: SLF001  # it has no public name
 
+FLEET = "fleet"
 MCP = "mcp"
 MOCK_LLM = "mock-llm"
 EVAL = "eval"
@@ -23,7 +24,7 @@ MAP = "map"
 ROBOT = "robot"
 NAV2 = "nav2"
 SKILL = "skill"
-APART = (EVAL, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2, SKILL)
+APART = (EVAL, FLEET, MCP, MOCK_LLM, SITE, MAP, ROBOT, NAV2, SKILL)
 """They read their own words."""
 OPERATOR = ("arm", "disarm", "estop", "reset")
 """Acts of an operator."""

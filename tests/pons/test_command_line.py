@@ -20,7 +20,7 @@ from pons.terminal import below, command_path, paint, pick
 from pons_assets import ROBOT_FILE, ROBOTS
 
 ROOT = Path(__file__).resolve().parents[2]
-APART = {"eval", "mcp", "mock-llm", "nav2"}
+APART = {"eval", "fleet", "mcp", "mock-llm", "nav2"}
 """Their libraries are large; that they answer --help is their own tests' to say."""
 
 

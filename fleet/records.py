@@ -1,0 +1,158 @@
+"""Hold robots, missions and stops as the fleet's rows say, and as its API shows them. Pure."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, fields
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
+
+from fleet.errors import WORDS, tell
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import sqlalchemy as sa
+
+    from fleet.watch import RobotWatch
+
+WAITING, OFFERED, AT_ROBOT, ASKING, UNKNOWN = "waiting", "offered", "at_robot", "asking", "unknown"
+SUCCEEDED, FAILED, REFUSED, CANCELLED, GIVEN_UP = (
+    "succeeded", "failed", "refused", "cancelled", "given_up",
+)  # fmt: skip
+ENDED = frozenset({SUCCEEDED, FAILED, REFUSED, CANCELLED, GIVEN_UP})
+GOAL_ENDED = frozenset({SUCCEEDED, FAILED, REFUSED, CANCELLED})
+"""States of a goal at a robot that end it; the mission then ends in the same."""
+_ASKS = frozenset({"needs_clarification", "awaiting_confirmation"})
+
+
+@dataclass(frozen=True, slots=True)
+class RobotRow:
+    """Hold a robot that was added, with the certificate it is known by."""
+
+    name: str
+    url: str
+    robot_id: str
+    pin_kind: str
+    pin_sha256: str
+    pin_pem: str
+    card: str
+    cursor: int = 0
+    stopped_seq: int = 0
+    used_seq: int = 0
+    added_unix_s: float = 0.0
+
+    @property
+    def capabilities(self) -> dict[str, Any]:
+        """Return the card as the robot gave it."""
+        read: dict[str, Any] = json.loads(self.card)
+        return read
+
+
+@dataclass(frozen=True, slots=True)
+class MissionRow:
+    """Hold a mission: one order to one robot."""
+
+    seq: int
+    id: str
+    order_id: str
+    text: str
+    body: str
+    way: str
+    names: str
+    is_urgent: bool
+    state: str
+    reason: str | None
+    robot: str | None
+    is_sent: bool
+    wish: str | None
+    goal_id: str | None
+    goal_state: str | None
+    question: str | None
+    outcome: str | None
+    unknown_since_unix_s: float | None
+    attempt: int
+    created_unix_s: float
+    updated_unix_s: float
+    change: int
+
+    @property
+    def candidates(self) -> tuple[str, ...]:
+        """Return the names of those that may go; empty: all."""
+        return tuple(json.loads(self.names))
+
+    @property
+    def is_over(self) -> bool:
+        """Return whether it has ended for people."""
+        return self.state in ENDED
+
+
+def robot_row(row: sa.RowMapping) -> RobotRow:
+    """Return a robot of its row."""
+    return RobotRow(**{field.name: row[field.name] for field in fields(RobotRow)})
+
+
+def mission_row(row: sa.RowMapping) -> MissionRow:
+    """Return a mission of its row."""
+    return MissionRow(**{field.name: row[field.name] for field in fields(MissionRow)})
+
+
+def show_mission(mission: MissionRow) -> dict[str, Any]:
+    """Return a mission as the API shows it."""
+    shown: dict[str, Any] = {
+        name: asdict(mission)[name]
+        for name in ("id", "order_id", "text", "way", "state", "reason", "robot", "goal_id",
+                     "goal_state", "wish", "unknown_since_unix_s", "created_unix_s",
+                     "updated_unix_s")
+    }  # fmt: skip
+    shown["names"] = list(mission.candidates)
+    for name in ("question", "outcome"):
+        text = getattr(mission, name)
+        shown[name] = json.loads(text) if text else None
+    shown["message"] = _message(mission, shown["outcome"])
+    return shown
+
+
+def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> dict[str, Any]:
+    """Return a robot as the API shows it."""
+    card, status = robot.capabilities, watch.told.get("status") or {}
+    return {
+        "name": robot.name, "robot_id": robot.robot_id, "url": robot.url,
+        "state": "ready" if watch.is_ready else watch.trouble or "connecting",
+        "heard_unix_s": watch.heard_unix_s, "mission": mission_id,
+        "mode": status.get("mode"), "base_in_map": status.get("base_in_map"),
+        "room": watch.told.get("room"), "map_id": card.get("map_id"), "site": card.get("site"),
+        "release": card.get("release"), "camera": card.get("camera"),
+        "pin": {"kind": robot.pin_kind, "sha256": robot.pin_sha256},
+    }  # fmt: skip
+
+
+def _message(mission: MissionRow, outcome: dict[str, Any] | None) -> dict[str, str] | None:
+    if mission.state == UNKNOWN and mission.unknown_since_unix_s is not None:
+        since = datetime.fromtimestamp(mission.unknown_since_unix_s, UTC).astimezone()
+        clock = f"{since:%H:%M}"
+        return {
+            "en": f"unknown since {clock}: {mission.robot} does not answer; it may go on by itself",
+            "zh": f"{clock} 起情况不明：{mission.robot} 没有应答；它可能仍在执行",
+        }
+    if outcome and isinstance(outcome.get("message"), dict) and mission.state != GIVEN_UP:
+        told: dict[str, str] = outcome["message"]
+        return told
+    return tell(mission.reason) if mission.reason in WORDS else None
+
+
+def state_of(goal: Mapping[str, Any]) -> str:
+    """Return where a mission stands by its goal at the robot; an ended one is told apart."""
+    return ASKING if question_of(goal) is not None else AT_ROBOT
+
+
+def question_of(goal: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return what a goal asks of people now, in both languages, with its options."""
+    plan = goal.get("plan") or {}
+    if goal.get("state") in _ASKS:
+        return {"text": plan.get("text"), "kind": goal["state"], "options": plan.get("options", [])}
+    for step in plan.get("steps") or ():
+        if step.get("kind") == "ask" and step.get("state") == "running":
+            text = step.get("text")
+            return {"text": {"en": text, "zh": text}, "kind": "ask", "options": []}
+    return None

@@ -1,0 +1,124 @@
+"""Run the fleet's service: one process a folder and a database, on the loopback or over TLS."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+import sqlalchemy as sa
+import uvicorn
+
+from fleet.access import LOOPBACK_NAMES, FleetAccess
+from fleet.api import build_app
+from fleet.desk import Desk
+from fleet.pin import is_loopback
+from fleet.store import FleetStore
+from wire import ConfigError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+DEFAULT_PORT = 8440
+ADVISORY_LOCK = 0x504F4E53
+"""Of Postgres: one service a database."""
+
+
+def database_url(home: Path, environment: Mapping[str, str]) -> str:
+    """Return where the fleet keeps its rows: ``PONS_FLEET_DB``, else a file in its folder.
+
+    Raises:
+        ConfigError: another kind of database.
+    """
+    given = environment.get("PONS_FLEET_DB", "").strip()
+    if not given:
+        return f"sqlite:///{home / 'fleet.sqlite'}"
+    if not given.startswith(("postgresql://", "postgres://", "sqlite:///")):
+        detail = "PONS_FLEET_DB is no postgresql:// URL; leave it out for an SQLite file"
+        raise ConfigError("fleet_db_unknown", detail)
+    return given.replace("postgres://", "postgresql://", 1)
+
+
+def own_home(home: Path) -> Path:
+    """Return the fleet's folder, made for its owner alone."""
+    folder = home / "fleet"
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    return folder
+
+
+def serve(
+    home: Path,
+    host: str,
+    port: int,
+    environment: Mapping[str, str],
+    certificate: Path | None = None,
+    key: Path | None = None,
+) -> None:
+    """Serve until a signal comes.
+
+    Raises:
+        ConfigError: the address is open to others without TLS or a token, or it runs already.
+    """  # fmt: skip
+    folder = own_home(home)
+    token = environment.get("PONS_FLEET_TOKEN", "")
+    if not is_loopback(host) and not (token and certificate and key):
+        detail = f"{host} can be reached from outside; set PONS_FLEET_TOKEN and give --tls-cert"
+        raise ConfigError("tls_needed", f"{detail} and --tls-key, or listen at 127.0.0.1")
+    with _lock_folder(folder / "up.lock"):
+        url = database_url(folder, environment)
+        store = FleetStore(url)
+        guard = _take_database(store)
+        names = {name for name in environment.get("PONS_ALLOWED_HOSTS", "").split(",") if name}
+        access = FleetAccess(
+            frozenset({*LOOPBACK_NAMES, host, *names} - {"0.0.0.0", "::"}), token,
+            environment.get("PONS_FLEET_VIEWER_TOKEN", ""), certificate is not None,
+        )  # fmt: skip
+        app = build_app(Desk(store, folder), access, url)
+        try:
+            uvicorn.run(
+                app, host=host, port=port, log_level="warning", access_log=False,
+                server_header=False, timeout_graceful_shutdown=2, limit_concurrency=256,
+                ssl_certfile=certificate, ssl_keyfile=key,
+            )  # fmt: skip
+        finally:
+            if guard is not None:
+                guard.close()
+            store.close()
+
+
+def _lock_folder(file: Path) -> TextIO:
+    """Return the lock of a folder, held until it is closed.
+
+    Raises:
+        ConfigError: ``already_running``.
+    """
+    opened = file.open("a+")
+    try:
+        fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        opened.seek(0)
+        holder = opened.read().strip() or "unknown"
+        opened.close()
+        raise ConfigError("already_running", f"pid {holder} serves {file.parent}") from None
+    opened.truncate(0)
+    opened.write(str(os.getpid()))
+    opened.flush()
+    return opened
+
+
+def _take_database(store: FleetStore) -> sa.Connection | None:
+    """Hold a Postgres database for this service alone; a file is held by its folder's lock.
+
+    Raises:
+        ConfigError: ``already_running``.
+    """
+    if store.engine.dialect.name == "sqlite":
+        return None
+    connection = store.engine.connect()
+    asked = sa.select(sa.func.pg_try_advisory_lock(ADVISORY_LOCK))
+    if not connection.execute(asked).scalar():
+        connection.close()
+        raise ConfigError("already_running", "another fleet service has this database")
+    connection.commit()
+    return connection

@@ -1,0 +1,108 @@
+"""Describe the fleet's tables and open their database: an SQLite file, or Postgres by a URL."""
+
+from __future__ import annotations
+
+import sqlalchemy as sa
+from sqlalchemy import event
+
+metadata = sa.MetaData()
+
+robots = sa.Table(
+    "fleet_robots",
+    metadata,
+    sa.Column("name", sa.String(32), primary_key=True),
+    sa.Column("url", sa.Text, nullable=False),
+    sa.Column("robot_id", sa.String(64), nullable=False),
+    sa.Column("pin_kind", sa.String(16), nullable=False),  # authority, leaf; none: on loopback
+    sa.Column("pin_sha256", sa.String(64), nullable=False),
+    sa.Column("pin_pem", sa.Text, nullable=False),
+    sa.Column("card", sa.Text, nullable=False),
+    sa.Column("cursor", sa.BigInteger, nullable=False, default=0),
+    sa.Column("stopped_seq", sa.BigInteger, nullable=False, default=0),  # missions up to it stay
+    sa.Column("used_seq", sa.BigInteger, nullable=False, default=0),  # the newest mission it got
+    sa.Column("added_unix_s", sa.Float, nullable=False),
+)
+orders = sa.Table(
+    "fleet_orders",
+    metadata,
+    sa.Column("id", sa.String(32), primary_key=True),
+    sa.Column("key", sa.String(200), unique=True),
+    sa.Column("body", sa.String(64), nullable=False),  # SHA-256 of the request
+    sa.Column("text", sa.Text, nullable=False),
+    sa.Column("created_unix_s", sa.Float, nullable=False),
+)
+missions = sa.Table(
+    "fleet_missions",
+    metadata,
+    sa.Column("seq", sa.BigInteger().with_variant(sa.Integer, "sqlite"), primary_key=True),
+    sa.Column("id", sa.String(64), nullable=False, unique=True),  # the key at the robot
+    sa.Column("order_id", sa.String(32), nullable=False, index=True),
+    sa.Column("text", sa.Text, nullable=False),
+    sa.Column("body", sa.Text, nullable=False),  # as it is offered, each time the same
+    sa.Column("way", sa.String(16), nullable=False),
+    sa.Column("names", sa.Text, nullable=False),  # of the robots that may go; empty: any
+    sa.Column("is_urgent", sa.Boolean, nullable=False),
+    sa.Column("state", sa.String(16), nullable=False, index=True),
+    sa.Column("reason", sa.String(64)),
+    sa.Column("robot", sa.String(32), index=True),
+    sa.Column("is_sent", sa.Boolean, nullable=False, default=False),
+    sa.Column("wish", sa.String(16)),  # cancel: to be told to the robot until it confirms
+    sa.Column("goal_id", sa.String(64), index=True),
+    sa.Column("goal_state", sa.String(32)),
+    sa.Column("question", sa.Text),
+    sa.Column("outcome", sa.Text),
+    sa.Column("unknown_since_unix_s", sa.Float),
+    sa.Column("attempt", sa.Integer, nullable=False, default=1),
+    sa.Column("created_unix_s", sa.Float, nullable=False),
+    sa.Column("updated_unix_s", sa.Float, nullable=False),
+    sa.Column("change", sa.BigInteger, nullable=False, index=True),
+    sqlite_autoincrement=True,
+)
+holds = sa.Table(
+    "fleet_holds",
+    metadata,
+    sa.Column("robot", sa.String(32), primary_key=True),
+    sa.Column("mission", sa.String(64), nullable=False, unique=True),
+)
+stops = sa.Table(
+    "fleet_stops",
+    metadata,
+    sa.Column("id", sa.String(32), primary_key=True),
+    sa.Column("robot", sa.String(32), primary_key=True),
+    sa.Column("asked_unix_s", sa.Float, nullable=False),
+    sa.Column("confirmed_unix_s", sa.Float),
+)
+counter = sa.Table(
+    "fleet_counter",
+    metadata,
+    sa.Column("id", sa.Integer, primary_key=True),
+    sa.Column("value", sa.BigInteger, nullable=False),
+)
+"""One row: the number of the newest change. A writer holds its lock until the commit, so that a
+change that is read has none before it that is yet to come."""
+
+
+def open_database(url: str) -> sa.Engine:
+    """Return the connections, with all tables made."""
+    made = sa.make_url(url)
+    if made.get_backend_name() == "sqlite":
+        engine = sa.create_engine(made, connect_args={"timeout": 30.0})
+        event.listen(engine, "connect", _prepare_sqlite)
+        event.listen(engine, "begin", _begin_writing)
+    else:
+        engine = sa.create_engine(made.set(drivername="postgresql+psycopg"), pool_pre_ping=True)
+    with engine.begin() as connection:
+        metadata.create_all(connection)
+        if connection.execute(sa.select(counter.c.value)).scalar() is None:
+            connection.execute(counter.insert().values(id=1, value=0))
+    return engine
+
+
+def _prepare_sqlite(connection: object, _: object) -> None:
+    connection.isolation_level = None  # type: ignore[attr-defined]  # transactions are ours
+    connection.execute("PRAGMA journal_mode=WAL")  # type: ignore[attr-defined]
+    connection.execute("PRAGMA synchronous=FULL")  # type: ignore[attr-defined]
+
+
+def _begin_writing(connection: sa.Connection) -> None:
+    connection.exec_driver_sql("BEGIN IMMEDIATE")

@@ -1,0 +1,228 @@
+"""Watch one robot: deliver stops and withdrawals first, then follow its journal by the cursor.
+
+A robot that is silent makes its missions ``unknown``; they are neither failed nor given to another.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+import random
+import time
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from sqlalchemy.exc import SQLAlchemyError
+
+from fleet.link import FleetLink, RobotAway, RobotBusy, RobotRefusal
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from fleet.records import MissionRow
+    from fleet.store import FleetStore
+
+log = logging.getLogger(__name__)
+
+POLL_S = 0.5
+SILENT_S = 10.0
+"""A robot that has not answered for so long is told as silent; Wi-Fi roams in a few seconds."""
+LOOK_S = 2.0
+RECONCILE_S = 30.0
+"""So often each open goal is asked for by its id: a cursor of a journal that was replaced tells
+nothing."""
+PAGE = 30
+STOP_S = 2.0
+SOURCE = "fleet"
+CLOSING = {"points": [{"x_m": 0.0, "y_m": 0.0}], "map_id": "0" * 16, "language": "en",
+           "source": SOURCE}  # fmt: skip
+"""Offered under a mission's key to close it: a robot that has not got the mission makes a goal of
+it that ends refused (no map has this id) and takes nothing else under that key any more; one that
+has it answers ``idempotency_conflict``."""
+CONFLICT = "idempotency_conflict"
+LOST = frozenset({"unknown_goal", "goal_forgotten"})
+
+
+class RobotWatch:
+    """Hold what is known of one robot now, and keep its rows true."""
+
+    def __init__(
+        self, link: FleetLink, store: FleetStore, wake: Callable[[Iterable[str]], None]
+    ) -> None:
+        self.link, self._store, self._wake = link, store, wake
+        self.name = link.name
+        self.is_ready = False
+        """It answers as the one that was added, and has heard all stops and withdrawals."""
+        self.trouble: str | None = None
+        self.told: dict[str, Any] = {}
+        self.heard_unix_s: float | None = None
+        self.open_goals = 0
+        self._began_s = time.monotonic()
+        self._heard_s: float | None = None
+        self._looked_s = self._reconciled_s = float("-inf")
+        self._is_marked = False
+        self._cursor: int | None = None
+        self._nudged = asyncio.Event()
+
+    @property
+    def is_silent(self) -> bool:
+        """Return whether nothing was heard for longer than a roam takes."""
+        since_s = self._began_s if self._heard_s is None else self._heard_s
+        return time.monotonic() - since_s > SILENT_S
+
+    def nudge(self) -> None:
+        """Let the next round begin at once."""
+        self._nudged.set()
+
+    async def run(self) -> None:
+        """Make rounds until cancelled."""
+        pause_s = POLL_S
+        while True:
+            try:
+                await self._round()
+                pause_s = POLL_S
+            except RobotAway as away:
+                await self._note_away(str(away))
+                pause_s = min(pause_s * 1.5, 5.0)
+            except RobotBusy as busy:
+                self._note_heard()
+                log.info("%s: %s", self.name, busy)
+            except RobotRefusal as refused:
+                self.is_ready = self.link.is_proven = False
+                self.trouble = refused.code
+                pause_s = min(pause_s * 1.5, 5.0)
+                await asyncio.to_thread(self._mark_silent_if_due)
+            except SQLAlchemyError as error:
+                log.warning("store_unavailable: %s", error)
+                pause_s = 1.0
+            with suppress(TimeoutError):
+                spread_s = pause_s * random.uniform(0.8, 1.2)  # many do not come back at once
+                await asyncio.wait_for(self._nudged.wait(), spread_s)
+            self._nudged.clear()
+
+    async def stop_now(self) -> None:
+        """Tell the robot of all stops that it has not confirmed; silence is no error here.
+
+        It needs no proof of who answers: a stop harms nobody.
+        """
+        ids = await asyncio.to_thread(self._store.unconfirmed_stops, self.name)
+        if not ids:
+            return
+        self.is_ready = False
+        await self.link.post("/v1/stop", {"source": SOURCE})
+        await asyncio.to_thread(self._store.confirm_stops, self.name, ids)
+
+    async def reconcile(self, mission: MissionRow) -> None:
+        """Ask for a mission's goal by its id. Raises as ``FleetLink.ask``."""
+        if mission.goal_id is None:
+            return
+        try:
+            goal = await self.link.get(f"/v1/goals/{mission.goal_id}")
+        except RobotRefusal as refused:
+            if refused.code not in LOST:
+                raise
+            await asyncio.to_thread(self._store.mark_lost, mission.id)
+        else:
+            await asyncio.to_thread(self._store.apply_goals, self.name, [goal])
+        self._wake([mission.id])
+
+    async def close_key(self, mission: MissionRow) -> bool:
+        """Make sure that a mission which may have been sent never begins; False: the robot has it.
+
+        Then its goal is bound to it. Raises as ``FleetLink.ask``.
+        """
+        try:
+            await self.link.post("/v1/goals", CLOSING, key=mission.id)
+        except RobotRefusal as refused:
+            if refused.code != CONFLICT:
+                raise
+        else:
+            return True
+        goal = await self.link.post("/v1/goals", mission_body(mission), key=mission.id)
+        await asyncio.to_thread(self._store.bind, mission.id, goal)
+        return False
+
+    async def cancel(self, goal_id: str) -> None:
+        """End a goal at the robot; one that has ended is left as it is. Raises as ``ask``."""
+        try:
+            goal = await self.link.post(f"/v1/goals/{goal_id}/cancel")
+        except RobotRefusal as refused:
+            if refused.code not in {*LOST, "bad_state"}:
+                raise
+        else:
+            await asyncio.to_thread(self._store.apply_goals, self.name, [goal])
+
+    async def _round(self) -> None:
+        await self.stop_now()
+        if not self.link.is_proven:
+            card = await self.link.prove()
+            await asyncio.to_thread(self._store.update_card, self.name, card)
+            self._reconciled_s = float("-inf")
+        if self._is_marked or self._reconciled_s == float("-inf"):
+            await asyncio.to_thread(self._store.mark_heard, self.name)
+            self._is_marked = False
+        await self._withdraw()
+        await self._follow()
+        self._note_heard()
+        await self._look()
+        is_first, self.is_ready, self.trouble = not self.is_ready, True, None
+        if is_first:
+            self._wake(())
+
+    async def _withdraw(self) -> None:
+        """Tell the robot of missions that people ended while it was silent."""
+        for mission in await asyncio.to_thread(self._store.withdrawals, self.name):
+            if mission.goal_id is None and await self.close_key(mission):
+                await asyncio.to_thread(self._store.clear_wish, mission.id)
+                continue
+            bound = await asyncio.to_thread(self._store.mission, mission.id)
+            await self.cancel(bound.goal_id or "")
+            await self.reconcile(bound)
+            await asyncio.to_thread(self._store.clear_wish, mission.id)
+
+    async def _follow(self) -> None:
+        """Take up changes of the journal; now and then ask for each open goal by its id."""
+        if self._cursor is None:
+            rows = await asyncio.to_thread(self._store.robots)
+            self._cursor = next(row.cursor for row in rows if row.name == self.name)
+        while True:
+            page = await self.link.get("/v1/goals", after=self._cursor, limit=PAGE)
+            goals, cursor = page["goals"], int(page["next"])
+            if goals or cursor != self._cursor:
+                touched = await asyncio.to_thread(self._store.apply_goals, self.name, goals, cursor)
+                self._cursor = cursor
+                self._wake(touched)
+            if len(goals) < PAGE:
+                break
+        if time.monotonic() - self._reconciled_s > RECONCILE_S:
+            for mission in await asyncio.to_thread(self._store.at_work, self.name):
+                await self.reconcile(mission)
+            self._reconciled_s = time.monotonic()
+
+    async def _look(self) -> None:
+        if time.monotonic() - self._looked_s > LOOK_S:
+            told = await self.link.get("/v1/robot")
+            self.told = told if isinstance(told, dict) else {}
+            self._looked_s = time.monotonic()
+
+    def _note_heard(self) -> None:
+        self._heard_s, self.heard_unix_s = time.monotonic(), time.time()
+
+    async def _note_away(self, why: str) -> None:
+        if self.is_ready:
+            log.warning("%s does not answer: %s", self.name, why)
+        self.is_ready, self.trouble = False, "robot_silent"
+        await asyncio.to_thread(self._mark_silent_if_due)
+
+    def _mark_silent_if_due(self) -> None:
+        if self.is_silent and not self._is_marked:
+            since = self.heard_unix_s if self.heard_unix_s is not None else time.time()
+            self._wake(self._store.mark_silent(self.name, since))
+        self._is_marked = self.is_silent
+
+
+def mission_body(mission: MissionRow) -> dict[str, Any]:
+    """Return what is offered of a mission, each time the same."""
+    body: dict[str, Any] = json.loads(mission.body)
+    return body

@@ -1,0 +1,253 @@
+"""Start robots and the service as real processes, and Postgres where it is installed."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import pwd
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import httpx
+import pytest
+import sqlalchemy as sa
+
+from fleet.robots import add_robot
+from fleet.service import own_home
+from fleet.store import FleetStore
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE_S = 90.0
+
+
+def until(look: Callable[[], Any], patience_s: float = PATIENCE_S) -> Any:
+    """Return what is looked for once it is there."""
+    end_s = time.monotonic() + patience_s
+    while True:
+        found = look()
+        if found:
+            return found
+        if time.monotonic() > end_s:
+            raise TimeoutError(f"waited {patience_s:g} s in vain")
+        time.sleep(0.05)
+
+
+def free_port() -> int:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        port: int = taken.getsockname()[1]
+        return port
+
+
+class StubRobot:
+    """Hold a robot's process; killed and begun again it has the same port and journal."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self.folder, self.name, self.port = folder, name, free_port()
+        self.url = f"http://127.0.0.1:{self.port}"
+        self.journal = folder / f"{name}.journal"
+        self.start()
+
+    def start(self) -> None:
+        words = [sys.executable, "-m", "tests.fleet.robot_stub", str(self.folder), self.name]
+        self.process = subprocess.Popen(
+            [*words, str(self.port)], cwd=ROOT, stdout=subprocess.PIPE, text=True
+        )
+        assert self.process.stdout is not None
+        self.process.stdout.readline()
+
+    def kill(self) -> None:
+        self.process.kill()
+        self.process.wait()
+        if self.process.stdout is not None:
+            self.process.stdout.close()
+
+    def rule(self, **rules: Any) -> None:
+        """Change how it behaves; a kill forgets it."""
+        httpx.post(f"{self.url}/stub", json=rules, trust_env=False).raise_for_status()
+
+
+class RunningFleet:
+    """Hold the service's process and a client of its API."""
+
+    def __init__(self, home: Path, database: str) -> None:
+        self.home, self.database, self.port = home, database, free_port()
+        self.environment = {**os.environ, "PONS_HOME": str(home), "PONS_FLEET_DB": database,
+                            "PONS_FLEET_PORT": str(self.port)}  # fmt: skip
+        self.client = httpx.Client(
+            base_url=f"http://127.0.0.1:{self.port}", trust_env=False, timeout=20.0
+        )
+        self.process: subprocess.Popen[bytes] | None = None
+
+    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
+        """Run ``pons fleet`` with these words."""
+        return subprocess.run(
+            [sys.executable, "-m", "fleet", *words], cwd=ROOT, env=self.environment,
+            capture_output=True, text=True, check=False, timeout=PATIENCE_S,
+        )  # fmt: skip
+
+    def add(self, *robots: StubRobot) -> None:
+        """Add robots as ``pons fleet add`` does."""
+        folder = own_home(self.home)
+        store = FleetStore(self.database)
+        try:
+            for robot in robots:
+                asyncio.run(add_robot(store, folder, robot.url, "", None))
+        finally:
+            store.close()
+        if self.process is not None:
+            self.await_ready(*robots)
+
+    def start(self, *settings: str) -> None:
+        """Start it, with constants set to others: ``fleet.watch.SILENT_S = 1.0``."""
+        lines = ["import fleet.watch, fleet.workflow, fleet.__main__", *settings]
+        code = "\n".join([*lines, "fleet.__main__.main(['up'])"])
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", code], cwd=ROOT, env=self.environment
+        )
+        until(self._answers)
+
+    def _answers(self) -> bool:
+        try:
+            return bool(self.client.get("/healthz").is_success)
+        except httpx.HTTPError:
+            return False
+
+    def kill(self) -> None:
+        if self.process is not None:
+            self.process.kill()
+            self.process.wait()
+            self.process = None
+
+    def end(self) -> None:
+        """Ask it to end, as a service manager does."""
+        if self.process is not None:
+            self.process.terminate()
+            self.process.wait(PATIENCE_S)
+            self.process = None
+
+    def give(
+        self, text: str, status: int = 202, key: str = "", **more: Any
+    ) -> list[dict[str, Any]]:
+        headers = {"idempotency-key": key} if key else {}
+        answer = self.client.post("/v1/missions", json={"text": text, **more}, headers=headers)
+        assert answer.status_code == status, answer.text
+        missions: list[dict[str, Any]] = answer.json().get("missions", [])
+        return missions
+
+    def mission(self, mission_id: str) -> dict[str, Any]:
+        found: dict[str, Any] = self.client.get(f"/v1/missions/{mission_id}").json()
+        return found
+
+    def await_state(self, mission_id: str, *states: str) -> dict[str, Any]:
+        def look() -> dict[str, Any] | None:
+            found = self.mission(mission_id)
+            return found if found["state"] in states else None
+
+        try:
+            found: dict[str, Any] = until(look)
+        except TimeoutError:
+            pytest.fail(f"not {states}: {json.dumps(self.mission(mission_id))}")
+        return found
+
+    def states(self) -> dict[str, str]:
+        """Return the state of each robot, or its trouble."""
+        robots = self.client.get("/v1/robots").json()["robots"]
+        return {robot["name"]: robot["state"] for robot in robots}
+
+    def await_ready(self, *robots: StubRobot) -> None:
+        names = {robot.name for robot in robots}
+        until(lambda: names <= {name for name, at in self.states().items() if at == "ready"})
+
+
+@pytest.fixture
+def make_robot(tmp_path: Path) -> Iterator[Callable[[str], StubRobot]]:
+    """Return a maker of robots; all end with the test."""
+    made: list[StubRobot] = []
+
+    def make(name: str) -> StubRobot:
+        made.append(StubRobot(tmp_path, name))
+        return made[-1]
+
+    yield make
+    for robot in made:
+        robot.kill()
+
+
+@pytest.fixture(scope="session")
+def postgres() -> Iterator[str]:
+    """Return the URL of a cluster of our own, on a socket, run by a user without rights."""
+    folders = sorted(Path("/usr/lib/postgresql").glob("*/bin"))
+    tools = folders[-1] if folders else None
+    if tools is None or not (tools / "initdb").exists():
+        pytest.skip("no initdb and pg_ctl here: Postgres is not tried")
+    place = Path(tempfile.mkdtemp(prefix="pg-", dir="/tmp"))  # names of sockets are short
+    user = pwd.getpwnam("nobody") if os.geteuid() == 0 else pwd.getpwuid(os.geteuid())
+    os.chown(place, user.pw_uid, user.pw_gid)
+
+    def run(*words: str) -> None:
+        subprocess.run(
+            words, check=True, capture_output=True, cwd=place, user=user.pw_uid,
+            group=user.pw_gid, env={"PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8"}, timeout=120,
+        )  # fmt: skip
+
+    data = place / "data"
+    run(str(tools / "initdb"), "-D", str(data), "-U", "fleet", "-A", "trust", "-N")
+    options = f"-k {place} -c listen_addresses= -c fsync=off"
+    run(
+        str(tools / "pg_ctl"),
+        "-D",
+        str(data),
+        "-l",
+        str(place / "log"),
+        "-w",
+        "-o",
+        options,
+        "start",
+    )
+    try:
+        yield f"postgresql://fleet@/postgres?host={place}"
+    finally:
+        run(str(tools / "pg_ctl"), "-D", str(data), "-m", "immediate", "-w", "stop")
+        shutil.rmtree(place, ignore_errors=True)
+
+
+@pytest.fixture(scope="module")
+def fleet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningFleet]:
+    """Return a fleet on SQLite that runs for all stories of a file; each names its own robots."""
+    folder = tmp_path_factory.mktemp("fleet")
+    running = RunningFleet(folder / "home", f"sqlite:///{folder / 'fleet.sqlite'}")
+    running.start("fleet.watch.SILENT_S = 2.0")
+    yield running
+    running.kill()
+    running.client.close()
+
+
+@pytest.fixture(params=["sqlite", "postgres"])
+def own_fleet(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[RunningFleet]:
+    """Return a fleet without robots, not yet started, on each kind of database."""
+    if request.param == "sqlite":
+        database = f"sqlite:///{tmp_path / 'fleet.sqlite'}"
+    else:
+        server = request.getfixturevalue("postgres")
+        url = sa.make_url(server).set(drivername="postgresql+psycopg")
+        engine = sa.create_engine(url, isolation_level="AUTOCOMMIT")
+        name = f"fleet_{os.getpid()}_{time.monotonic_ns()}"
+        with engine.connect() as connection:
+            connection.execute(sa.text(f"CREATE DATABASE {name}"))
+        engine.dispose()
+        database = server.replace("/postgres?", f"/{name}?")
+    running = RunningFleet(tmp_path / "home", database)
+    yield running
+    running.kill()
+    running.client.close()

@@ -1,0 +1,281 @@
+"""Be a robot's door to a fleet: a real server with a real journal on disk, which may be killed.
+
+``python -m tests.fleet.robot_stub FOLDER NAME PORT``. It shares no code with Pons. Its journal says
+what was begun, so that a judge who reads the file alone can tell whether anything was done twice.
+POST /stub changes how it behaves: to lose answers, to work for longer, to ask, to want a token.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import sqlite3
+import ssl
+import sys
+import threading
+import time
+import uuid
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+ENDED = ("succeeded", "failed", "refused", "cancelled")
+MAP = "00112233445566aa"
+SCHEMA = """
+CREATE TABLE IF NOT EXISTS keys (key TEXT PRIMARY KEY, body TEXT, goal TEXT);
+CREATE TABLE IF NOT EXISTS goals (id TEXT PRIMARY KEY, text TEXT, state TEXT, record TEXT);
+CREATE TABLE IF NOT EXISTS changes (seq INTEGER PRIMARY KEY AUTOINCREMENT, goal TEXT, state TEXT);
+CREATE TABLE IF NOT EXISTS acts
+  (seq INTEGER PRIMARY KEY AUTOINCREMENT, act TEXT, goal TEXT, key TEXT);
+"""
+
+
+class Journal:
+    """Keep goals on disk, and move them on."""
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self.name, self.lock = name, threading.Lock()
+        self.rules: dict[str, Any] = {
+            "work_s": 0.05, "lose_answers": 0, "ask": False, "token": "", "id": name,
+            "length_m": 5.0, "refuse": None, "role": "dispatcher", "places": ["kitchen", "hall"],
+        }  # fmt: skip
+        self.disk = sqlite3.connect(
+            folder / f"{name}.journal", check_same_thread=False, isolation_level=None
+        )
+        self.disk.execute("PRAGMA journal_mode=WAL")
+        self.disk.execute("PRAGMA synchronous=FULL")
+        self.disk.executescript(SCHEMA)
+        self.since: dict[str, float] = {}
+        self.is_stopped = False
+
+    def give(self, body: dict[str, Any], key: str | None) -> tuple[int, dict[str, Any]]:
+        """Take a goal, or find the one that the same key made."""
+        print_of_it = hashlib.sha256(json.dumps(body, sort_keys=True).encode()).hexdigest()
+        if key is not None:
+            row = self.disk.execute("SELECT body, goal FROM keys WHERE key=?", (key,)).fetchone()
+            if row is not None and row[0] != print_of_it:
+                return 409, problem("idempotency_conflict")
+            if row is not None:
+                return 202, self.goal(row[1])
+        goal_id = uuid.uuid4().hex
+        is_of_other_map = "points" in body and body["map_id"] != MAP
+        state = "refused" if is_of_other_map else "queued"
+        text = body.get("text") or json.dumps(body.get("steps") or body.get("points"))
+        record = {"id": goal_id, "text": text, "state": state, "reason": None, "plan": None,
+                  "outcome": outcome(state) if state in ENDED else None}  # fmt: skip
+        self.disk.execute("BEGIN IMMEDIATE")
+        if key is not None:
+            self.disk.execute("INSERT INTO keys VALUES (?,?,?)", (key, print_of_it, goal_id))
+        self.disk.execute(
+            "INSERT INTO goals VALUES (?,?,?,?)", (goal_id, text, state, json.dumps(record))
+        )
+        self.disk.execute("INSERT INTO changes (goal, state) VALUES (?,?)", (goal_id, state))
+        self.disk.execute("COMMIT")
+        return 202, record
+
+    def goal(self, goal_id: str) -> dict[str, Any]:
+        row = self.disk.execute("SELECT record FROM goals WHERE id=?", (goal_id,)).fetchone()
+        found: dict[str, Any] = json.loads(row[0]) if row else {}
+        return found
+
+    def move(self, goal_id: str, state: str, **more: Any) -> dict[str, Any]:
+        """Write a goal's next state down, and what was begun."""
+        record = {**self.goal(goal_id), "state": state, **more}
+        if state in ENDED:
+            record["outcome"] = outcome(state)
+        self.disk.execute("BEGIN IMMEDIATE")
+        self.disk.execute(
+            "UPDATE goals SET state=?, record=? WHERE id=?", (state, json.dumps(record), goal_id)
+        )
+        self.disk.execute("INSERT INTO changes (goal, state) VALUES (?,?)", (goal_id, state))
+        if state == "running" and "answered" not in more:
+            key = self.disk.execute("SELECT key FROM keys WHERE goal=?", (goal_id,)).fetchone()
+            act = ("begun", goal_id, key[0] if key else None)
+            self.disk.execute("INSERT INTO acts (act, goal, key) VALUES (?,?,?)", act)
+        self.disk.execute("COMMIT")
+        return record
+
+    def tick(self) -> None:
+        """Begin what is queued and end what has worked for long enough."""
+        for goal_id, state in self.disk.execute("SELECT id, state FROM goals").fetchall():
+            if state in ENDED or self.is_stopped:
+                continue
+            if state == "queued":
+                self.since[goal_id] = time.monotonic()
+                if self.rules["ask"]:
+                    plan = {"kind": "clarify", "text": {"en": "Which door?", "zh": "哪扇门？"}}
+                    self.move(goal_id, "needs_clarification", plan=plan)
+                else:
+                    self.move(goal_id, "running")
+            elif state == "running":
+                began = self.since.setdefault(goal_id, time.monotonic())
+                if time.monotonic() - began >= self.rules["work_s"]:
+                    self.move(goal_id, "succeeded")
+
+    def changes(self, after: int, limit: int) -> dict[str, Any]:
+        rows = self.disk.execute(
+            "SELECT goal, MAX(seq) AS s FROM changes WHERE seq>? GROUP BY goal ORDER BY s LIMIT ?",
+            (after, limit),
+        ).fetchall()
+        return {
+            "goals": [self.goal(row[0]) for row in rows],
+            "next": rows[-1][1] if rows else after,
+        }
+
+    def stop(self) -> dict[str, Any]:
+        """Pause what runs."""
+        self.disk.execute("INSERT INTO acts (act) VALUES ('stop')")
+        for goal_id, state in self.disk.execute("SELECT id, state FROM goals").fetchall():
+            if state not in ENDED:
+                self.move(goal_id, "paused", reason="stop")
+        return {"accepted": True}
+
+
+def outcome(state: str) -> dict[str, Any]:
+    return {"code": state, "message": {"en": f"It is {state}.", "zh": f"结果：{state}。"}}
+
+
+def problem(code: str) -> dict[str, Any]:
+    return {"code": code, "detail": code, "message": {"en": code, "zh": code}}
+
+
+class Door(BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+    journal: Journal
+    authority = b""
+    timeout = 5.0
+
+    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002  # the library's name
+        pass
+
+    def do_GET(self) -> None:
+        if self.path == "/ca.crt" and self.authority:
+            self.send_response(200)
+            self.send_header("content-length", str(len(self.authority)))
+            self.end_headers()
+            self.wfile.write(self.authority)
+            return
+        self._serve(None)
+
+    def do_POST(self) -> None:
+        length = int(self.headers.get("content-length", 0))
+        self._serve(json.loads(self.rfile.read(length) or b"{}"))
+
+    def _serve(self, body: dict[str, Any] | None) -> None:
+        parts = urlsplit(self.path)
+        with self.journal.lock:
+            rules = self.journal.rules
+            if parts.path == "/stub":
+                rules.update(body or {})
+                return self._answer(200, rules)
+            wanted = f"Bearer {rules['token']}"
+            if rules["token"] and self.headers.get("authorization") != wanted:
+                return self._answer(401, problem("token_needed"))
+            status, content = self._act(parts.path, parse_qs(parts.query), body)
+            is_lost = body is not None and parts.path == "/v1/goals" and rules["lose_answers"] > 0
+            if is_lost:  # it is on disk, and nobody hears of it
+                rules["lose_answers"] -= 1
+                self.close_connection = True
+                return None
+        return self._answer(status, content)
+
+    def _act(
+        self, path: str, query: dict[str, list[str]], body: dict[str, Any] | None
+    ) -> tuple[int, dict[str, Any]]:
+        journal, rules = self.journal, self.journal.rules
+        words = path.strip("/").split("/")
+        if body is None:
+            return self._show(words, query)
+        match words:
+            case ["v1", "goals"]:
+                if rules["refuse"] and "points" not in body:
+                    return rules["refuse"], problem("refused_by_rule")
+                return journal.give(body, self.headers.get("idempotency-key"))
+            case ["v1", "goals", goal_id, "cancel"]:
+                if journal.goal(goal_id).get("state") in ENDED:
+                    return 409, problem("bad_state")
+                return 200, journal.move(goal_id, "cancelled")
+            case ["v1", "goals", goal_id, "answer"]:
+                return 200, journal.move(goal_id, "running", plan=None)
+            case ["v1", "stop"]:
+                return 200, journal.stop()
+            case ["v1", "rehearsals"]:
+                return 200, {"steps": [{"does": "drives"}], "length_m": rules["length_m"]}
+        return 404, problem("unknown_route")
+
+    def _show(self, words: list[str], query: dict[str, list[str]]) -> tuple[int, dict[str, Any]]:
+        journal, rules = self.journal, self.journal.rules
+        match words:
+            case ["v1", "capabilities"]:
+                places = [{"id": name, "name": {"en": name}, "pose": {"x_m": 1.0, "y_m": 0.0}}
+                          for name in rules["places"]]  # fmt: skip
+                return 200, {"robot_id": rules["id"], "release": "0.1", "site": "home",
+                             "map_id": MAP, "places": places, "camera": None}  # fmt: skip
+            case ["v1", "people"]:
+                return 200, {"you": {"id": "fleet", "role": rules["role"]}}
+            case ["v1", "robot"]:
+                return 200, {"status": {"mode": "active"}, "room": "hall", "map_id": MAP}
+            case ["v1", "goals"]:
+                after, limit = int(query.get("after", ["0"])[0]), int(query["limit"][0])
+                return 200, journal.changes(after, limit)
+            case ["v1", "goals", goal_id]:
+                found = journal.goal(goal_id)
+                return (200, found) if found else (404, problem("unknown_goal"))
+        return 404, problem("unknown_route")
+
+    def _answer(self, status: int, content: dict[str, Any]) -> None:
+        raw = json.dumps(content).encode()
+        self.send_response(status)
+        self.send_header("content-type", "application/json")
+        self.send_header("content-length", str(len(raw)))
+        self.end_headers()
+        self.wfile.write(raw)
+
+
+class Server(ThreadingHTTPServer):
+    daemon_threads = True
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        pass
+
+
+def make_server(
+    folder: Path, name: str, port: int, tls: ssl.SSLContext | None = None, authority: bytes = b""
+) -> Server:
+    """Return a robot's server, its journal taken up."""
+    journal = Journal(folder, name)
+    server = Server(
+        ("127.0.0.1", port), type("OwnDoor", (Door,), {"journal": journal, "authority": authority})
+    )
+    if tls is not None:
+        server.socket = tls.wrap_socket(server.socket, server_side=True)
+
+    def work() -> None:
+        while True:
+            time.sleep(0.02)
+            with journal.lock:
+                journal.tick()
+
+    threading.Thread(target=work, daemon=True).start()
+    return server
+
+
+def main() -> None:
+    folder, name, port = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
+    server = make_server(folder, name, port)
+    print(server.server_address[1], flush=True)
+    parent = os.getppid()
+
+    def end_with_parent() -> None:
+        while os.getppid() == parent:
+            time.sleep(0.5)
+        os._exit(0)
+
+    threading.Thread(target=end_with_parent, daemon=True).start()
+    server.serve_forever()
+
+
+if __name__ == "__main__":
+    main()
