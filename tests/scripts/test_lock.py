@@ -59,7 +59,7 @@ def test_every_pin_has_hashes(repository: Path, name: str) -> None:
         ("requirements.lock", ("install",)),
         ("requirements-dev.lock", ("install", "dev")),
         ("requirements-attack.lock", ("install", "attack")),
-        ("requirements-extras.lock", ("install", "mcp", "mqtt", "foxglove", "traces")),
+        ("requirements-extras.lock", ("install", "mcp", "mqtt", "foxglove", "traces", "fleet")),
     ],
 )
 def test_lock_satisfies_pyproject(repository: Path, name: str, extras: tuple[str, ...]) -> None:
