@@ -192,7 +192,9 @@ def bound_resources() -> None:
         (resource.RLIMIT_FSIZE, 0),
         (resource.RLIMIT_CORE, 0),
     ):
-        resource.setrlimit(which, (most, most))
+        # At the hard limit of a processor's time the kernel kills without a word of why.
+        hard = most + 1 if which == resource.RLIMIT_CPU else most
+        resource.setrlimit(which, (most, hard))
 
 
 def raise_wall() -> None:

@@ -15,7 +15,7 @@ from wire import ConfigError
 
 
 def test_it_takes_its_share_before_it_opens_anything(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     taken: list[tuple[int, list[Path]]] = []
     monkeypatch.setattr(
@@ -28,7 +28,7 @@ def test_it_takes_its_share_before_it_opens_anything(
     with pytest.raises(SystemExit, match="2"):
         runpy.run_module("planner", run_name="__main__")
     assert taken == [(-10, [tmp_path / "settings.toml"])]
-    assert "planner: " in capsys.readouterr().err
+    assert "planner: " in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("name", ["PONS_OPERATOR_TOKEN", "PONS_VIEWER_TOKEN"])

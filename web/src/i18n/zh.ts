@@ -553,7 +553,7 @@ export const zh: Record<Key, string> = {
   "driven_outcome.failed": "行不通",
   "driven_outcome.stuck": "卡住了",
   "driven_outcome.left_out": "略过：取决于它看到或听到什么",
-  "left_out.localization": "在地图上定位自己",
+  "left_out.localization": "在地图上找到自己的位置",
   "left_out.people_stand": "走动的人",
   "left_out.pictures": "它会看到、听到或记得的",
   "left_out.branches": "条件，都当作成立",
