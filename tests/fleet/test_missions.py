@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     MakeRobot = Callable[[str], StubRobot]
 
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 
 
 def test_the_nearest_goes_or_each_and_a_repeated_key_makes_nothing_new(
