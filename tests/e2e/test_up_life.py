@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 from pathlib import Path
 
+import psutil
 import pytest
 
 from tests.e2e.polling import until
@@ -77,4 +78,7 @@ def test_a_home_that_cannot_be_written_for_a_while_ends_nobody(robot: Robot) -> 
 def test_every_child_is_started_by_the_one_up(robot: Robot) -> None:
     assert robot.system.up is not None
     parents = {name: robot.system.child(name).ppid() for name in CHILDREN}
+    standby = parents["planner"]  # a fork of the planner serves
+    parents["planner"] = psutil.Process(standby).ppid()
+    assert standby != robot.system.up.pid
     assert parents == dict.fromkeys(CHILDREN, robot.system.up.pid)
