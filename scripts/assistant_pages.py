@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from scripts.check import STEPS
 from scripts.docs_site import read_config
+from scripts.generated_text import write_or_check
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -128,14 +129,11 @@ def first_sentence(text: str) -> str:
 
 def main(arguments: list[str]) -> int:
     """Write or check both; 1 where one is stale."""
-    stale = 0
-    for path, text in ((ROOT / "AGENTS.md", agents_page()), (ROOT / "llms.txt", llms_page())):
-        if arguments != ["--check"]:
-            path.write_text(text, "utf-8")
-        elif not (path.exists() and path.read_text("utf-8") == text):
-            print(f"{path} is stale: run `make docs`")
-            stale = 1
-    return stale
+    return write_or_check(
+        {ROOT / "AGENTS.md": agents_page(), ROOT / "llms.txt": llms_page()},
+        arguments,
+        "`make docs`",
+    )
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from bridge.core.faults.code_messages import SENTENCES, WANTS
 from bridge.core.faults.fault_messages import WORDS
 from pons.robot.trial_words import STEPS
+from scripts.generated_text import write_or_check
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -43,14 +44,9 @@ def _text(value: object) -> str:
 
 def main(arguments: list[str]) -> int:
     """Write or check both; 1 where one is stale."""
-    stale = 0
-    for path, text in ((ROWS, rows_json()), (CODES, codes_json())):
-        if arguments != ["--check"]:
-            path.write_text(text, "utf-8")
-        elif not (path.exists() and path.read_text("utf-8") == text):
-            print(f"{path} is not what the tables say; run python -m scripts.page_words")
-            stale = 1
-    return stale
+    return write_or_check(
+        {ROWS: rows_json(), CODES: codes_json()}, arguments, "`python -m scripts.page_words`"
+    )
 
 
 if __name__ == "__main__":

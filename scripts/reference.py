@@ -22,6 +22,7 @@ from pydantic_core import PydanticUndefined
 from bridge.core.faults.code_messages import SENTENCES
 from planner.openapi import render
 from planner.settings.loader import Settings
+from scripts.generated_text import write_or_check
 from wire import RobotDescription
 
 if TYPE_CHECKING:
@@ -307,14 +308,7 @@ def pages() -> dict[Path, str]:
 
 def main(arguments: list[str]) -> int:
     """Write or check the pages; 1 where one is stale."""
-    stale = 0
-    for path, text in pages().items():
-        if arguments != ["--check"]:
-            path.write_text(text, "utf-8")
-        elif not (path.exists() and path.read_text("utf-8") == text):
-            print(f"{path} is stale: run `make docs`")
-            stale = 1
-    return stale
+    return write_or_check(pages(), arguments, "`make docs`")
 
 
 if __name__ == "__main__":
