@@ -80,8 +80,8 @@ def main(arguments: list[str] | None = None) -> int:
     if planner.detector.refused is not None:
         print(f"planner: {planner.detector.refused}", file=sys.stderr)
         return REFUSED
-    if planner.thrown is not None and planner.thrown.exit_status is not None:
-        return planner.thrown.exit_status
+    if planner.thrown_switch is not None and planner.thrown_switch.exit_status is not None:
+        return planner.thrown_switch.exit_status
     return 0 if server.started else 1
 
 
@@ -90,7 +90,7 @@ def _end(planner: Planner, number: int, _: FrameType | None) -> None:
 
     The server shuts down on a signal of its own, and then raises it again here.
     """
-    thrown = planner.thrown
+    thrown = planner.thrown_switch
     if planner.detector.refused is None and (thrown is None or thrown.exit_status is None):
         signal.signal(number, signal.SIG_DFL)
         signal.raise_signal(number)

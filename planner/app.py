@@ -147,7 +147,7 @@ class Planner:
         return Link(WireBus(self._session, nav2=has_nav2), self.description)
 
     @property
-    def thrown(self) -> ProcessSwitch | None:
+    def thrown_switch(self) -> ProcessSwitch | None:
         """Return by what this planner is to end, for another start to take its place."""
         return next((each for each in self._switches if each.is_thrown), None)
 
@@ -337,8 +337,8 @@ async def _end_with(planner: Planner) -> None:
         if planner.detector.refused is not None:
             log.critical("the detector that is set can't be used: %s", planner.detector.refused)
             break
-        if planner.thrown is not None:
-            log.warning("leaving, so that %s", planner.thrown.why)
+        if planner.thrown_switch is not None:
+            log.warning("leaving, so that %s", planner.thrown_switch.why)
             break
         if await asyncio.to_thread(planner.fence_is_old):
             log.warning("fence_changed: leaving, so that the next start routes by the new fence")

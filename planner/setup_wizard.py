@@ -13,6 +13,7 @@ import asyncio
 import json
 import logging
 import os
+import re
 import shutil
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -37,6 +38,7 @@ SAVE_LIMIT_S = 300.0
 """A large home's loops are settled once more, and its rooms are cut; a small computer is slow."""
 MIN_FREE_BYTES = 200 * 1024 * 1024
 """As much as a start of everything asks for (pons/launch_checks.py)."""
+_CODE = re.compile(r"[a-z][a-z0-9_]{2,39}")
 MEASURED = ("wheel_radius_m", "wheel_separation_m", "radius_m")
 
 
@@ -179,11 +181,17 @@ class SetupWizard:
         """
         if self.mapping is None:
             raise WizardRefusal("not_mapping", "no map is being made")
+        site = self._home / OWN_SITES / self.mapping
+        if site.exists():
+            raise WizardRefusal("site_exists", self.mapping)
         result = await self._at_once("map", self.mapping, limit_s=SAVE_LIMIT_S)
-        if result.status != 0:
-            told = result.error.strip().removeprefix("refused: ")
-            code, _, detail = told.partition(": ")
-            raise WizardRefusal(code[:40] or "map_unsaved", detail[:200], "map_unsaved")
+        if site.is_dir():  # it is written last and whole; names alone may have had no room
+            return
+        told = result.error.strip().removeprefix("refused: ")
+        code, _, detail = told.partition(": ")
+        if _CODE.fullmatch(code) is None:
+            code, detail = "map_unsaved", told
+        raise WizardRefusal(code, detail[:200], "map_unsaved")
 
     @property
     def _has_own_robot(self) -> bool:

@@ -87,6 +87,8 @@ def mapper(
 
     async def run(*words: str, **_: float) -> CommandResult:
         asked.append(words)
+        if saved.status == 0:
+            (home / "sites" / words[1]).mkdir(parents=True)
         return saved
 
     made = services_of(home, mode)
@@ -152,6 +154,8 @@ def test_the_map_is_saved_by_the_shells_command_before_anything_ends(tmp_path: P
     [
         ("refused: map_no_drive: the drive gave 1 keyframes", "map_no_drive"),
         ("refused: map_torn: something new\n  and more", "map_torn"),
+        ("refused: 名称未能保存：已满", "map_unsaved"),
+        ("Traceback (most recent call last):\n  File: x", "map_unsaved"),
         ("", "map_unsaved"),
     ],
 )
@@ -165,6 +169,9 @@ def test_nothing_is_saved_of_a_robot_that_moves_or_maps_nothing(tmp_path: Path) 
     services, asked = mapper(tmp_path, maps="home", mode=Mode.ACTIVE)
     assert post(services, "map/save", {}) == (409, "robot_moves")
     assert asked == []
+    services, _ = mapper(tmp_path, maps="home")
+    (tmp_path / "sites" / "home").mkdir(parents=True)
+    assert post(services, "map/save", {}) == (409, "site_exists")
     services, _ = mapper(tmp_path)
     assert post(services, "map/save", {}) == (409, "not_mapping")
     services.change_map.is_there = False

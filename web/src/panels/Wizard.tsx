@@ -241,7 +241,9 @@ function MapIt({ now }: StepProps) {
   if (!now.can_map) {
     const name = now.mapping ?? "home";
     const lines = [`pons up --map ${name}`, "pons arm", 'pons say "explore the house"'];
-    return <Command about={t("wizard.map.what")} lines={[...lines, `pons map ${name}`, "pons up"]} />;
+    return (
+      <Command about={t("wizard.map.what")} lines={[...lines, `pons map ${name}`, "pons up"]} />
+    );
   }
   const maps = now.mapping !== null;
   const doing = maps ? "wizard.map.saving" : "wizard.taking";
