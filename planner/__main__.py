@@ -22,7 +22,7 @@ from planner.orders.zone import set_local_zone
 from processes.log_lines import begin_log
 from processes.priority import add_nice
 from processes.standby import Standby
-from wire import EXIT_SET_UP, ConfigError
+from wire import ConfigError
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -36,7 +36,7 @@ MIN_TOKEN_CHARACTERS = 16
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Serve until told to end; 1 home unwritable at present, 2 refused, 4 for set-up."""
+    """Serve until told to end; 1 home unwritable at present, 2 refused, 4 set-up, 5 for a map."""
     begin_log()
     given = _options(arguments)
     try:
@@ -50,6 +50,7 @@ def main(arguments: list[str] | None = None) -> int:
                 given.site,
                 may_set_up=given.may_set_up,
                 may_take_robot=given.may_take_robot,
+                may_map=given.may_map,
             )
         )
     except ConfigError as wrong:  # a SiteError is one
@@ -79,8 +80,8 @@ def main(arguments: list[str] | None = None) -> int:
     if planner.detector.refused is not None:
         print(f"planner: {planner.detector.refused}", file=sys.stderr)
         return REFUSED
-    if planner.leaves_robot:
-        return EXIT_SET_UP
+    if planner.thrown_switch is not None and planner.thrown_switch.exit_status is not None:
+        return planner.thrown_switch.exit_status
     return 0 if server.started else 1
 
 
@@ -89,7 +90,8 @@ def _end(planner: Planner, number: int, _: FrameType | None) -> None:
 
     The server shuts down on a signal of its own, and then raises it again here.
     """
-    if planner.detector.refused is None and not planner.leaves_robot:
+    thrown = planner.thrown_switch
+    if planner.detector.refused is None and (thrown is None or thrown.exit_status is None):
         signal.signal(number, signal.SIG_DFL)
         signal.raise_signal(number)
 
@@ -112,6 +114,10 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--may-take-robot", action="store_true",
         help="end with 4 when the owner asks for the robot.toml that a page has written",
+    )  # fmt: skip
+    parser.add_argument(
+        "--may-map", action="store_true",
+        help="end with 5 when the owner asks to map this home, or for the map that was saved",
     )  # fmt: skip
     return parser.parse_args(arguments)
 

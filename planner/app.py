@@ -34,7 +34,7 @@ from planner.rehearsal_drive import RehearsalDrives
 from planner.robot_service import LinkedRobot
 from planner.settings import load_settings
 from planner.settings_desk import SettingsDesk
-from planner.setup_switch import ProcessSwitch
+from planner.setup_switch import ProcessSwitch, switches_of
 from planner.setup_wizard import SetupWizard
 from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.site.marks import marks_path
@@ -46,7 +46,7 @@ from planner.traces import traces_of
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
 from planner.watching import PlannerFigures
-from processes.service import Service, is_supervised
+from processes.service import Service
 from wire import RobotDescription, fingerprint, load_robot
 from wire.keys import PLAN_VIEW, Party
 from wire.session import open_session
@@ -74,6 +74,8 @@ class PlannerPaths:
     """Who started this planner starts set-up in its place when it asks for that."""
     may_take_robot: bool = False
     """Who started this planner changes over to the home's own robot.toml when it asks for that."""
+    may_map: bool = False
+    """Who started this planner changes over to a map that grows, and back, when it asks."""
 
 
 class Planner:
@@ -88,10 +90,10 @@ class Planner:
             ConfigError, SiteError: robot.toml, settings.toml or the site is wrong, or a planner
                 runs here.
         """
-        can = (where.may_set_up, where.may_take_robot, is_supervised())
-        self.setup, self.take_robot, self.restart = map(ProcessSwitch, can)
+        self._switches = switches_of(where.may_set_up, where.may_take_robot, where.may_map)
+        self.setup, self.take_robot, self.change_map, self.restart = self._switches
         self.settings = load_settings(where.home, os.environ)
-        self._home, self._state = where.home, _state_of(where.home)
+        self._where, self._state = where, _state_of(where.home)
         self.people = People(self._state)
         self.budget = purse_of(self.settings, where.home, self._state)
         self.replies = collector_of(self.settings)
@@ -145,9 +147,9 @@ class Planner:
         return Link(WireBus(self._session, nav2=has_nav2), self.description)
 
     @property
-    def leaves_robot(self) -> bool:
-        """Say whether set-up, or another robot, is to take this planner's place."""
-        return self.setup.is_thrown or self.take_robot.is_thrown
+    def thrown_switch(self) -> ProcessSwitch | None:
+        """Return by what this planner is to end, for another start to take its place."""
+        return next((each for each in self._switches if each.is_thrown), None)
 
     @property
     def _speed_mps(self) -> float:
@@ -158,7 +160,7 @@ class Planner:
     def settings_desk(self) -> SettingsDesk:
         """Show and change settings.toml; what is in force is what this planner began with."""
         return SettingsDesk(
-            self._home, os.environ, self.settings, self._state,
+            self._where.home, os.environ, self.settings, self._state,
             robot_mps=self.description.limits.max_speed_mps,
             adopt=lambda saved: self.budget.adopt(saved.budget),
         )  # fmt: skip
@@ -166,7 +168,10 @@ class Planner:
     @cached_property
     def wizard(self) -> SetupWizard:
         """Lead the owner of an empty home to a robot that knows its rooms."""
-        return SetupWizard(self._home, self.description, self.site.folder, lambda: self.memory)
+        where, site = self._where, self.site.folder
+        return SetupWizard(
+            where.home, self.description, site, lambda: self.memory, robot_file=where.robot
+        )
 
     @cached_property
     def rehearser(self) -> Rehearser:
@@ -332,14 +337,8 @@ async def _end_with(planner: Planner) -> None:
         if planner.detector.refused is not None:
             log.critical("the detector that is set can't be used: %s", planner.detector.refused)
             break
-        if planner.restart.is_thrown:
-            log.warning("restart: leaving, so that the next start reads the settings again")
-            break
-        if planner.take_robot.is_thrown:
-            log.warning("take_robot: leaving, so that the home's own robot takes this one's place")
-            break
-        if planner.setup.is_thrown:
-            log.warning("set_up: leaving, so that set-up takes the bridge's place")
+        if planner.thrown_switch is not None:
+            log.warning("leaving, so that %s", planner.thrown_switch.why)
             break
         if await asyncio.to_thread(planner.fence_is_old):
             log.warning("fence_changed: leaving, so that the next start routes by the new fence")

@@ -206,7 +206,7 @@ def _bring_up(settings: LaunchSettings, said: argparse.Namespace, words: list[st
 
         detached = [word for word in words if word not in ("-d", "--detach")]
         return background.start(settings, detached)
-    from pons import up
+    from pons import launch
 
     port = port_of(said.port) if said.port is not None else None
     site = None if said.site is None else site_of(str(said.site), settings.home)
@@ -218,7 +218,7 @@ def _bring_up(settings: LaunchSettings, said: argparse.Namespace, words: list[st
     given |= {"mapping": said.mapping, "set_up": said.set_up}
     chosen = {name: value for name, value in given.items() if value is not None}
     chosen["tls"] = said.tls or settings.tls
-    return up.run(replace(settings, **chosen), planner=not said.no_planner)
+    return launch.run(replace(settings, **chosen), planner=not said.no_planner)
 
 
 def _background(settings: LaunchSettings, said: argparse.Namespace) -> int:

@@ -78,7 +78,7 @@ def children(
     if planner:
         more = ["--may-set-up"] if can_set_up(settings, robot) else []
         more += ["--may-take-robot"] if may_take_robot(settings) else []
-        wanted.append(("planner", [*_planner(settings, common, issued), *more]))
+        wanted.append(("planner", [*_planner(settings, common, issued), "--may-map", *more]))
     simulated = robot.drive.virtual or settings.twin
     if simulated:
         more = _simulator(settings)

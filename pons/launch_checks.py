@@ -13,6 +13,7 @@ from pons.key import run as make_key
 from pons.launch_words import PAIR
 from pons.settings import robot_of
 from pons.terminal import pick, speaks_chinese
+from pons_assets import DEFAULT_SITE
 from wire import ConfigError, load_robot
 
 if TYPE_CHECKING:
@@ -33,6 +34,11 @@ class CannotStart(Exception):
 
 class ChildRefusal(CannotStart):
     """A process that was started ended, because a setting or a file is wrong."""
+
+    def __init__(self, text: str, *, is_late: bool = False) -> None:
+        """Keep whether the robot had been ready before."""
+        super().__init__(text)
+        self.is_late = is_late
 
 
 def check(settings: LaunchSettings) -> RobotDescription:
@@ -97,6 +103,19 @@ def take_robot(settings: LaunchSettings) -> tuple[LaunchSettings, RobotDescripti
         make_key(taken)
         print(f"pons: {pick(*PAIR)}", flush=True)
     return taken, robot
+
+
+def change_map(settings: LaunchSettings) -> tuple[LaunchSettings, RobotDescription]:
+    """Return what runs from now on: a map of this home that grows, or the site made of it.
+
+    Raises:
+        CannotStart, ConfigError: something is wrong with it.
+    """
+    changed = replace(settings, mapping=DEFAULT_SITE.name, set_up=False)
+    if settings.mapping is not None:
+        site = settings.home / "sites" / settings.mapping
+        changed = replace(changed, mapping=None, site=site)
+    return changed, check(changed)
 
 
 def in_chinese(why: Exception) -> str:

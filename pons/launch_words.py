@@ -77,6 +77,10 @@ SEARCHES = (
 )
 SET_UP = "set-up: no bridge, nothing drives; try the robot on that page", "设置模式：请在网页上测试"
 NO_LIDAR = "; no [lidar]: it will stand (docs/lidars.md)", "；没有 [lidar]：机器人不会行驶"
+CHANGED_BACK = (
+    "so what ran before runs again; its page is where it was",
+    "因此恢复原来的运行；网页不变",
+)
 PAIR = (
     "to sign with a telephone instead of typing the key: pons people pair",
     "用手机签名而不必输入密钥：pons people pair",

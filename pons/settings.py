@@ -97,7 +97,7 @@ def load(*, forgiving: bool = False, starts: bool = False) -> LaunchSettings:
     return LaunchSettings(
         home=home,
         robot=robot_of(given.get("PONS_ROBOT", ""), home),
-        site=site_of(given.get("PONS_SITE", str(DEFAULT_SITE)), home),
+        site=site_of(given.get("PONS_SITE", ""), home),
         host=given.get("PONS_HOST", host),
         port=_port(given.get("PONS_PORT", str(port)), forgiving=forgiving),
         metal=Path(metal).absolute() if (metal := given.get("PONS_METAL")) else None,
@@ -107,7 +107,15 @@ def load(*, forgiving: bool = False, starts: bool = False) -> LaunchSettings:
 
 
 def site_of(given: str, home: Path) -> Path:
-    """Return a site's folder, by its path or by its name: an imported one before a shipped one."""
+    """Return a site's folder, by its path or by its name: an imported one before a shipped one.
+
+    Without either the map that was made of this home, where a robot of its own drives; else the
+    demo robot's.
+    """
+    if not given:
+        own = home / "sites" / DEFAULT_SITE.name
+        is_own = os.path.isfile(own / "map.yaml") and os.path.isfile(home / OWN_ROBOT)  # noqa: PTH113
+        return own if is_own else DEFAULT_SITE
     folders = (Path(given), home / "sites" / given, SITES / given)
     there = (folder for folder in folders if os.path.isdir(folder))  # noqa: PTH112  # as above
     return next(there, folders[0]).absolute()

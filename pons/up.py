@@ -1,4 +1,4 @@
-"""Start the whole robot, keep it running, take it all down: ``pons up``.
+"""Start the whole robot, keep it running, take it all down: one run of ``pons up``.
 
 Starts simulator (on a virtual drive), localization, bridge and planner, and once these are ready
 the simulated camera; restarts what dies, waiting longer each time; arms the simulator once; prints
@@ -8,52 +8,38 @@ running.
 
 from __future__ import annotations
 
-import os
 import signal
-import sys
 import threading
 import time
 from contextlib import suppress
 from math import inf
 from typing import TYPE_CHECKING
 
-from pons.children import begins_in_set_up, children, may_take_robot, set_up_children
-from pons.home_lock import HomeLock, HomeTaken, HomeUnwritable
+from pons.children import children, set_up_children
 from pons.http import PlannerDown, PlannerProblem, call
 from pons.kept_sockets import KeptSockets
-from pons.key import offer_key
-from pons.launch_checks import (
-    CannotStart,
-    ChildRefusal,
-    check,
-    check_port,
-    in_chinese,
-    site_flaw,
-    take_robot,
-)
+from pons.launch_checks import CannotStart, ChildRefusal
 from pons.launch_words import (
     NO_LIDAR,
     SEARCHES,
     SET_UP,
     UNREACHED,
     brain_example,
-    chinese_line,
     what_to_try,
 )
 from pons.readiness import Readiness, ask_readiness
 from pons.robot_processes import PATIENCE_S
-from pons.running import RunningNote
 from pons.supervisor import REFUSED_TO_START
 from pons.terminal import pick
-from wire import EXIT_SET_UP, ConfigError, RobotDescription
+from wire import EXIT_MAP, EXIT_SET_UP
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
 if TYPE_CHECKING:
-    from types import FrameType
-
     from pons.authority import IssuedCertificate
+    from pons.running import RunningNote
     from pons.settings import LaunchSettings
+    from wire import RobotDescription
 
 POLL_S = 0.05
 READY_LIMIT_S = 60.0
@@ -66,8 +52,6 @@ SEARCH_TOLD_S = 20.0
 """A home in which it is clear where the robot is takes a tenth of it."""
 LOOK_S = 0.5
 """The longest that a removed socket stays unreachable, or a log longer than its bound."""
-PRIVATE = 0o077
-"""What a robot keeps (sentences, recordings, places, logs) is for the user who runs it."""
 _CHANGERS = frozenset({"planner", "setup"})
 
 
@@ -83,14 +67,14 @@ class Supervisor:
         planner: bool,
         issued: IssuedCertificate | None = None,
         set_up: bool = False,
-        came_from_setup: bool = False,
+        has_changed: bool = False,
     ) -> None:
-        self._is_patient = came_from_setup or set_up or _is_of_ros2(settings, robot)
+        self._is_patient = has_changed or set_up or _is_of_ros2(settings, robot)
         """The page is all that this person has: it is not taken away for being slow."""
         self._told_up: set[str] = set()
         self._said_late = self._said_search = self._said_unreached = False
-        self.changes = False
-        """Whether the run ended because a person asked for set-up, or to leave it."""
+        self.change: int | None = None
+        """The status with which a child asked for a changeover; None: none is asked for."""
         self._set_up = set_up
         self._trust = issued.trust_lines() if issued else ()
         self._settings = settings
@@ -133,9 +117,10 @@ class Supervisor:
                 say(f"{child.name} hangs: killed. Its log: {child.log}")
             status = child.died(now_s)
             if status == REFUSED_TO_START:
-                raise ChildRefusal(f"{child.name} refused to start:\n{child.last_words()}")
-            if status == EXIT_SET_UP and child.name in _CHANGERS:
-                self.changes = True
+                told = f"{child.name} refused to start:\n{child.last_words()}"
+                raise ChildRefusal(told, is_late=self._said_ready)
+            if status in (EXIT_SET_UP, EXIT_MAP) and child.name in _CHANGERS:
+                self.change = status
                 self.end()
                 return
             if status is not None:
@@ -260,91 +245,3 @@ def describe(status: int) -> str:
 def say(text: str) -> None:
     """Print one line for the person, at once."""
     print(f"pons: {text}", flush=True)
-
-
-def run(settings: LaunchSettings, *, planner: bool = True) -> int:
-    """Be ``pons up``; without a planner the robot waits for another brain."""
-    os.umask(PRIVATE)  # of the children too
-    try:
-        robot = check(settings)
-        with HomeLock(settings.home):
-            if not robot.drive.virtual:
-                offer_key(settings)
-            if planner:
-                check_port(settings)
-            if settings.domain is not None:
-                from pons.domain import keep_domain
-
-                settings, words = keep_domain(settings, robot)
-                say(words)
-            issued = _certify(settings) if planner and settings.tls else None
-            while True:
-                with RunningNote(settings, robot.id) as note:
-                    status = _supervise(settings, robot, note, planner=planner, issued=issued)
-                if status is not None:
-                    return status
-                settings, robot = take_robot(settings)
-    except (CannotStart, HomeTaken, HomeUnwritable, ConfigError) as why:
-        told = f"pons up: {why}"
-        if isinstance(why, ChildRefusal):
-            told += site_flaw(settings, told, planner=planner)
-        told += in_chinese(why) or chinese_line(told)
-        print(told, file=sys.stderr)
-        return REFUSED_TO_START
-
-
-def _certify(settings: LaunchSettings) -> IssuedCertificate:
-    """Return this robot's certificate; the library that makes it is loaded for this alone."""
-    from pons.tls import prepare
-
-    return prepare(settings)
-
-
-def _supervise(
-    settings: LaunchSettings,
-    robot: RobotDescription,
-    note: RunningNote,
-    *,
-    planner: bool,
-    issued: IssuedCertificate | None,
-) -> int | None:
-    """Return the exit status; None where the home's own robot is to be taken up."""
-    where = settings.site.name if settings.canvas is None else f"a home to map: {settings.mapping}"
-    set_up = planner and begins_in_set_up(settings, robot)
-    changed = False
-    while True:
-        supervisor = Supervisor(
-            settings,
-            robot,
-            note,
-            planner=planner,
-            issued=issued,
-            set_up=set_up,
-            came_from_setup=changed,
-        )
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, _handler(supervisor))
-        what = describe_base(settings, robot)
-        say(f"starting {robot.id} ({what}) in {where} (state in {settings.home})")
-        status = supervisor.run()
-        if not supervisor.changes:
-            return status
-        if may_take_robot(settings):
-            return None
-        set_up, changed = not set_up, True
-        robot = check(settings)  # a trial has written to it
-
-
-def _handler(supervisor: Supervisor) -> _Handler:
-    def handle(number: int, _frame: FrameType | None) -> None:
-        say(f"{signal.Signals(number).name}: taking everything down")
-        supervisor.changes = False
-        supervisor.end()
-
-    return handle
-
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    _Handler = Callable[[int, FrameType | None], None]

@@ -95,6 +95,7 @@ from wire.status import (
     TickStats,
 )
 from wire.trial_dialogue import (
+    EXIT_MAP,
     EXIT_SET_UP,
     PortReport,
     Sentence,
@@ -105,6 +106,7 @@ from wire.trial_dialogue import (
 )
 
 __all__ = [
+    "EXIT_MAP",
     "EXIT_SET_UP",
     "IDENTITY",
     "MAX_POINTS",

@@ -19,6 +19,9 @@ from wire.commands import Proof
 EXIT_SET_UP: Final = 4
 """A planner ends with it where an operator asked for set-up, and set-up where one asked to drive:
 ``pons up`` then starts the other."""
+EXIT_MAP: Final = 5
+"""A planner ends with it where its owner asked to map this home, or to drive on the map that was
+saved: ``pons up`` then starts everything for the one or the other."""
 UNWATCHED_S: Final = 1.5
 """A page that says nothing for so long is gone; pages speak three times a second."""
 

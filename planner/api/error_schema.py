@@ -61,6 +61,8 @@ OWN_PROBLEMS: dict[str, tuple[int, ...]] = {
     "wizard_choose": (409, 503),
     "wizard_measure": (409, 503),
     "wizard_take": (409,),
+    "wizard_map": (409, 503),
+    "wizard_save_map": (409, 503),
     "trial": (409, 503),
     "set_up": (409, 503),
     "give_order": (409, 429, 503),

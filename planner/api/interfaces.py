@@ -257,6 +257,9 @@ class Services(Protocol):
     def take_robot(self) -> SetupSwitch: ...
 
     @property
+    def change_map(self) -> SetupSwitch: ...
+
+    @property
     def wizard(self) -> SetupWizard: ...
 
     @property

@@ -1,11 +1,12 @@
 """Serve the wizard: what is plugged in, which preset, three numbers, and over to set-up.
 
-The owner's alone: it writes this home's robot.toml and changes what `pons up` runs.
+The owner's alone: it writes this home's robot.toml, saves its map and changes what `pons up` runs.
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Annotated, Any
 
 from fastapi import APIRouter
 from pydantic import BaseModel, Field
@@ -16,6 +17,9 @@ from planner.api.schemas import Body, Source
 from planner.api.settings import MOVING
 from planner.language.catalogue import UnknownMessage, say
 from planner.setup_wizard import WizardRefusal
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 Metres = Annotated[float, Field(ge=0.01, le=3.0, strict=True)]
 
@@ -56,6 +60,10 @@ class WizardView(BaseModel):
     is_written: bool
     can_take: bool
     """Whether `pons up` changes over to the robot that was written."""
+    mapping: str | None
+    """Of the map that is being made."""
+    can_map: bool
+    """Whether `pons up` changes over to a map that grows, and back."""
 
 
 class PresetChoice(Body):
@@ -109,34 +117,75 @@ def routes(services: Services) -> APIRouter:
         """End what runs, and begin with the robot that was written, in set-up."""
         if not services.take_robot.is_there:
             raise _problem(WizardRefusal("wizard_elsewhere", "end `pons up` and start it again"))
-        status = services.robot.status
-        if status is not None and status.mode in MOVING:
-            raise HttpProblem(409, "robot_moves", f"the robot is {status.mode.value}",
-                              message=say("settings.robot_moves").model_dump())  # fmt: skip
+        _require_standing(services)
         services.take_robot.throw()
+        return {"source": (order or WizardAsk()).source}
+
+    @router.post("/map", operation_id="wizard_map", status_code=202)
+    async def begin_map(order: WizardAsk | None = None) -> dict[str, str]:
+        """End what runs, and begin a map of this home; the robot stands until it is driven."""
+        _require_changeover(services)
+        with _refusals():
+            services.wizard.check_may_map()
+        services.change_map.throw()
+        return {"source": (order or WizardAsk()).source}
+
+    @router.post("/map/save", operation_id="wizard_save_map", status_code=202)
+    async def save_map(order: WizardAsk | None = None) -> dict[str, str]:
+        """Save the map that grows as this home's, end what runs, and begin to drive on it."""
+        _require_changeover(services)
+        with _refusals():
+            await services.wizard.save_map()
+        services.change_map.throw()
         return {"source": (order or WizardAsk()).source}
 
     return router
 
 
+def _require_changeover(services: Services) -> None:
+    """Hold that maps can be changed now."""
+    if not services.change_map.is_there:
+        raise _problem(WizardRefusal("map_elsewhere", "only `pons up` changes over to a map"))
+    _require_standing(services)
+
+
+def _require_standing(services: Services) -> None:
+    status = services.robot.status
+    if status is not None and status.mode in MOVING:
+        raise HttpProblem(409, "robot_moves", f"the robot is {status.mode.value}",
+                          message=say("settings.robot_moves").model_dump())  # fmt: skip
+
+
 async def _view(services: Services) -> WizardView:
-    return WizardView(**await services.wizard.view(), can_take=services.take_robot.is_there)
+    return WizardView(
+        **await services.wizard.view(),
+        can_take=services.take_robot.is_there,
+        can_map=services.change_map.is_there,
+    )
 
 
 async def _view_after(services: Services, work: Any) -> WizardView:
-    try:
+    with _refusals():
         await work
+    return await _view(services)
+
+
+@contextmanager
+def _refusals() -> Iterator[None]:
+    """Tell what a step refuses in both languages."""
+    try:
+        yield
     except WizardRefusal as refused:
         raise _problem(refused) from None
     except OSError as error:
         why = error.strerror or str(error)
-        raise HttpProblem(503, "settings_unwritable", why) from None
-    return await _view(services)
+        told = say("settings.settings_unwritable").model_dump()
+        raise HttpProblem(503, "settings_unwritable", why, message=told) from None
 
 
 def _problem(refused: WizardRefusal) -> HttpProblem:
     try:
         told = say(f"wizard.{refused.code}", detail=refused.detail)
     except UnknownMessage:
-        told = say("wizard.wizard_unwritten", detail=refused.detail)
+        told = say(f"wizard.{refused.unnamed}", detail=refused.detail)
     return HttpProblem(409, refused.code, refused.detail, message=told.model_dump())

@@ -24,12 +24,12 @@ PORT: dict[str, Any] = {
 
 def wizard_of(home: Path, robot: RobotDescription | None = None, site: Path | None = None,
               found: tuple[dict[str, Any], ...] = (PORT,)) -> SetupWizard:  # fmt: skip
-    async def run(*words: str) -> CommandResult:
-        if words[0] == "find":
+    async def run(*words: str, limit_s: float = 40.0) -> CommandResult:
+        if words[1:2] == ("find",):
             await asyncio.sleep(0)
             content = {"ports": list(found), "cameras": [], "port_takers": []}
             return CommandResult(0, json.dumps(content), "")
-        return await made._run_pons(*words)
+        return await made._run_pons(*words, limit_s=limit_s)
 
     made = SetupWizard(
         home, robot or RobotDescription(), site or two_room().folder,
@@ -110,3 +110,20 @@ def test_two_pages_that_look_at_once_open_each_port_once(tmp_path: Path) -> None
     assert first is None
     assert isinstance(second, WizardRefusal)
     assert second.code == "wizard_busy"
+
+
+def test_a_map_that_grows_or_was_half_written_is_none_yet(tmp_path: Path) -> None:
+    robot = load_robot_with_trial(tmp_path)
+    (tmp_path / "sites" / ".home.1f2e.new").mkdir(parents=True)
+    (tmp_path / "sites" / ".home.1f2e.new" / "map.yaml").touch()
+    assert view(wizard_of(tmp_path, robot))["step"] == "map"
+    seen = view(wizard_of(tmp_path, robot, tmp_path / "mapping" / "home"))
+    assert (seen["step"], seen["mapping"]) == ("map", "home")
+
+
+def test_a_map_is_saved_by_pons_itself_and_one_without_a_drive_is_none(tmp_path: Path) -> None:
+    wizard = wizard_of(tmp_path, site=tmp_path / "mapping" / "home")
+    with pytest.raises(WizardRefusal) as refused:
+        asyncio.run(wizard.save_map())
+    assert (refused.value.code, refused.value.unnamed) == ("map_not_begun", "map_unsaved")
+    assert not (tmp_path / "sites").exists()

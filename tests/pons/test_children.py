@@ -217,3 +217,4 @@ def test_while_a_home_is_mapped_only_the_simulator_knows_it(tmp_path: Path) -> N
         "planner": canvas,
     }
     assert [name for name, words in found.items() if "--mapping" in words] == ["localization"]
+    assert [name for name, words in found.items() if "--may-map" in words] == ["planner"]

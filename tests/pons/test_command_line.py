@@ -17,7 +17,7 @@ from pons.command_help import EXIT_STATUS, HELP, exit_table
 from pons.completion import grammars
 from pons.settings import load, robot_of
 from pons.terminal import below, command_path, paint, pick
-from pons_assets import ROBOT_FILE, ROBOTS
+from pons_assets import DEFAULT_SITE, ROBOT_FILE, ROBOTS
 
 ROOT = Path(__file__).resolve().parents[2]
 APART = {"eval", "fleet", "mcp", "mock-llm", "nav2"}
@@ -194,3 +194,19 @@ def test_presets_are_listed_and_found_by_name(
     mine = tmp_path / "arduino"
     mine.touch()
     assert robot_of(str(mine), tmp_path) == mine
+
+
+def test_a_home_with_a_robot_of_its_own_drives_on_the_map_that_was_made_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PONS_HOME", str(tmp_path))
+    monkeypatch.delenv("PONS_SITE", raising=False)
+    (tmp_path / "robot.toml").write_text('id = "mine"\n')
+    assert load().site == DEFAULT_SITE
+    (own := tmp_path / "sites" / "home").mkdir(parents=True)
+    (own / "map.yaml").touch()
+    assert load().site == own
+    (tmp_path / "robot.toml").unlink()
+    assert load().site == DEFAULT_SITE, "the demo robot keeps its own home"
+    monkeypatch.setenv("PONS_SITE", "two_room")
+    assert load().site.name == "two_room"

@@ -6,7 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from pons import up
+from pons import launch
 from pons.settings import load
 from pons.supervisor import REFUSED_TO_START
 
@@ -16,7 +16,7 @@ def test_what_a_robot_keeps_is_readable_by_its_own_user_alone(tmp_path: Path) ->
     before = os.umask(0o022)
     try:
         settings = replace(load(), home=tmp_path / "h", site=tmp_path / "none")
-        assert up.run(settings) == REFUSED_TO_START
+        assert launch.run(settings) == REFUSED_TO_START
         (tmp_path / "file").touch()
     finally:
         os.umask(before)

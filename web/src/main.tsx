@@ -114,6 +114,7 @@ effect(() => {
 });
 
 let loading = false;
+let growth: ReturnType<typeof setTimeout> | undefined;
 void load(); // beside the socket's opening, not after it
 
 /** Load what does not change while a planner runs; again until it is there. */
@@ -125,7 +126,7 @@ async function load(): Promise<void> {
     voice.value = heard;
     learnPlaces(site);
     grid.value = cells;
-    if (cells.growing) setTimeout(() => void regrow(), GROWN_MS);
+    if (cells.growing) regrowLater();
   } catch {
     if (open.value || tokenNeeded.value) setTimeout(() => void load(), RETRY_MS);
   } finally {
@@ -138,7 +139,13 @@ async function regrow(): Promise<void> {
   const cells = await fetchGrid().catch(() => null);
   if (cells !== null && cells.growing?.revision !== grid.peek()?.growing?.revision)
     grid.value = cells;
-  setTimeout(() => void regrow(), GROWN_MS);
+  if (cells === null || cells.growing) regrowLater();
+}
+
+/** Of each connection only the newest goes on. */
+function regrowLater(): void {
+  clearTimeout(growth);
+  growth = setTimeout(() => void regrow(), GROWN_MS);
 }
 
 const page = document.getElementById("page");

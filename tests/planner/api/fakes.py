@@ -383,6 +383,7 @@ class FakeServices:
         self.setup = ProcessSwitch(is_there=True)
         self.restart = ProcessSwitch(is_there=True)
         self.take_robot = ProcessSwitch(is_there=True)
+        self.change_map = ProcessSwitch(is_there=True)
         self.settings_desk = SettingsDesk(HOME, {}, Settings(), StateDatabase(HOME))
         self.ears = FakeEars()
         self.speaker = FakeSpeech()

@@ -39,7 +39,7 @@ DISPATCHERS = {
 LISTED = {"Claude": AGENTS, "Desk": DISPATCHERS}
 OWNERS_OWN = ("/v1/settings", "/v1/settings/model/test", "/v1/settings/restart",
               "/v1/wizard", "/v1/wizard/look", "/v1/wizard/preset", "/v1/wizard/robot",
-              "/v1/wizard/take")  # fmt: skip
+              "/v1/wizard/take", "/v1/wizard/map", "/v1/wizard/map/save")  # fmt: skip
 """What others may not even look at."""
 TOKENS = {
     "operator": "o" * 20, "viewer": "v" * 20, "wrong token": "w" * 20, "nobody": "",

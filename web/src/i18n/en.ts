@@ -894,7 +894,16 @@ export const en = {
     "Your robot is written down. End what runs in the terminal (Ctrl-C), and start it again:",
   "wizard.try.here": "Go through the trial on this page.",
   "wizard.map": "Map your home",
-  "wizard.map.what": "End what runs in the terminal (Ctrl-C), begin a map, and let it explore:",
+  "wizard.map.what":
+    "What runs was started without pons up. At its computer end it, begin a map, let it explore, and save it:",
+  "wizard.map.begin":
+    "What runs ends, and an empty map begins where the robot stands: put it where it is to come home to. Some ten seconds; nothing drives. Open the doors and look out for stairs.",
+  "wizard.map.do": "Map this home",
+  "wizard.map.drive":
+    "The map grows as you drive. Write “explore the house”, or take the stick: slowly, through every room, and back to the start. Save it when all is on it and the robot stands.",
+  "wizard.map.go": "Drive",
+  "wizard.map.save": "Save this map",
+  "wizard.map.saving": "Saving, then changing over …",
   "wizard.rooms": "Name your rooms",
   "wizard.rooms.do": "Go to Places",
   "wizard.taking": "Changing over …",

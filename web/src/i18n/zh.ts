@@ -867,7 +867,16 @@ export const zh: Record<Key, string> = {
   "wizard.try.command": "机器人已写入。请在终端结束正在运行的程序（Ctrl-C），再启动：",
   "wizard.try.here": "请完成本页的试车。",
   "wizard.map": "为家里建图",
-  "wizard.map.what": "请在终端结束正在运行的程序（Ctrl-C），开始建图并让它探索：",
+  "wizard.map.what":
+    "现在运行的不是由 pons up 启动的。请在机器人的电脑上结束它，开始建图，让它探索，然后保存：",
+  "wizard.map.begin":
+    "正在运行的会结束，并从机器人所在处开始一张空地图：请把它放在以后要回的地方。约需十秒，期间不会行驶。请打开房门，留意楼梯。",
+  "wizard.map.do": "为家里建图",
+  "wizard.map.drive":
+    "地图会随行驶变大。可以输入“探索一下房子”，或用摇杆：慢慢经过每个房间，再回到起点。等全部画好、机器人停下后再保存。",
+  "wizard.map.go": "去行驶",
+  "wizard.map.save": "保存这张地图",
+  "wizard.map.saving": "正在保存，然后切换……",
   "wizard.rooms": "给房间命名",
   "wizard.rooms.do": "前往地点",
   "wizard.taking": "正在切换……",

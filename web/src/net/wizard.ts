@@ -27,6 +27,8 @@ export type WizardState = {
   readonly presets: readonly Preset[] | null;
   readonly is_written: boolean;
   readonly can_take: boolean;
+  readonly mapping: string | null;
+  readonly can_map: boolean;
 };
 
 export type Measures = {
@@ -37,6 +39,7 @@ export type Measures = {
 };
 
 const PATH = "v1/wizard";
+const SAVE_MS = 305_000; // a large home's loops are settled once more
 const LOOK_MS = 45_000; // a slow board needs some ten seconds, and a command is given forty
 
 export const fetchWizard = async (): Promise<WizardState> =>
@@ -54,4 +57,14 @@ export const writeRobot = async (measures: Measures): Promise<WizardState> =>
 /** End the simulated robot; the one that was written takes its place. */
 export async function takeRobot(): Promise<void> {
   await call("POST", `${PATH}/take`, { source: "page" });
+}
+
+/** Begin a map of this home; what runs ends, and the robot stands until it is driven. */
+export async function mapHome(): Promise<void> {
+  await call("POST", `${PATH}/map`, { source: "page" });
+}
+
+/** Save the map as this home's; what runs ends, and drives on it begin. */
+export async function saveMap(): Promise<void> {
+  await call("POST", `${PATH}/map/save`, { source: "page" }, {}, SAVE_MS);
 }

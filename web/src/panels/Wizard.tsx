@@ -6,14 +6,17 @@ import {
   choosePreset,
   fetchWizard,
   lookAround,
+  mapHome,
+  saveMap,
   takeRobot,
   type StepName,
   type WizardState,
   writeRobot,
 } from "../net/wizard";
 import { explain, tell } from "../state/acts";
+import { open } from "../state/store";
 import { inSetup } from "../state/trial";
-import { toTeaching } from "./Tabs";
+import { toGoalBox, toTeaching } from "./Tabs";
 
 const wizard = signal<WizardState | null>(null); // null: not known, or not ours to see
 const busy = signal(false);
@@ -40,9 +43,26 @@ async function attempt(work: () => Promise<WizardState>): Promise<void> {
   }
 }
 
+/** Ask for what takes this planner's place; the page comes back by itself. */
+async function changeOver(ask: () => Promise<void>): Promise<void> {
+  if (isTaking.value) return;
+  isTaking.value = true;
+  try {
+    await ask();
+  } catch (error) {
+    isTaking.value = false;
+    tell(explain(error), true);
+  }
+}
+
 export function Wizard() {
   const isSetUp = inSetup.value;
-  useEffect(() => void look(), [isSetUp]);
+  const isOpen = open.value;
+  useEffect(() => {
+    if (!isOpen) return; // what was seen stays in view until another start answers
+    isTaking.value = false;
+    void look();
+  }, [isSetUp, isOpen]);
   const now = wizard.value;
   if (now === null || now.step === null) return null;
   return (
@@ -62,6 +82,7 @@ export function Wizard() {
           );
         })}
       </ol>
+      {now.mapping !== null && now.step !== "map" && <MapIt now={now} />}
     </section>
   );
 }
@@ -84,12 +105,7 @@ function NextAct({ step, now }: StepProps & { readonly step: StepName }) {
     case "try":
       return <TryIt now={now} />;
     case "map":
-      return (
-        <Command
-          about={t("wizard.map.what")}
-          lines={["pons up --map home", "pons arm", 'pons say "explore the house"']}
-        />
-      );
+      return <MapIt now={now} />;
     case "rooms":
       return (
         <button type="button" class="main" onClick={toTeaching}>
@@ -213,16 +229,43 @@ function TryIt({ now }: StepProps) {
         type="button"
         class="main"
         disabled={isTaking.value}
-        onClick={() => {
-          isTaking.value = true;
-          void takeRobot().catch((error: unknown) => {
-            isTaking.value = false;
-            tell(explain(error), true);
-          });
-        }}
+        onClick={() => void changeOver(takeRobot)}
       >
         {t(isTaking.value ? "wizard.taking" : "wizard.try.do")}
       </button>
+    </>
+  );
+}
+
+function MapIt({ now }: StepProps) {
+  if (!now.can_map) {
+    const name = now.mapping ?? "home";
+    const lines = [`pons up --map ${name}`, "pons arm", 'pons say "explore the house"'];
+    return (
+      <Command about={t("wizard.map.what")} lines={[...lines, `pons map ${name}`, "pons up"]} />
+    );
+  }
+  const maps = now.mapping !== null;
+  const doing = maps ? "wizard.map.saving" : "wizard.taking";
+  return (
+    <>
+      <p class="fine">{t(maps ? "wizard.map.drive" : "wizard.map.begin")}</p>
+      <div class="buttons">
+        {maps && (
+          <button type="button" onClick={toGoalBox}>
+            {t("wizard.map.go")}
+          </button>
+        )}
+        <button
+          type="button"
+          class="main"
+          id={maps ? "map-save" : "map-begin"}
+          disabled={isTaking.value}
+          onClick={() => void changeOver(maps ? saveMap : mapHome)}
+        >
+          {t(isTaking.value ? doing : maps ? "wizard.map.save" : "wizard.map.do")}
+        </button>
+      </div>
     </>
   );
 }
