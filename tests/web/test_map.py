@@ -32,7 +32,7 @@ pytestmark = pytest.mark.e2e
 
 PHONE, DESK = (390, 844), (1440, 900)
 HOLD_MS, FRAMES_MS = 700, 300
-FREE = ((0.9, 4.4), (0.9, 5.1))
+FREE = ((0.9, 4.4), (0.9, 3.8))
 BOX = [[2.0, 3.5], [2.6, 3.5], [2.6, 4.1], [2.0, 4.1]]
 STANDS = {"base_in_map": Pose2(1.5, 1.5, 0.5), "measured": Twist2(0.0, 0.0)}
 
