@@ -1,5 +1,5 @@
 /** Hold the views beside the map; a later one is one more line here. */
-import { computed, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import type { ComponentType } from "preact";
 import { useRef } from "preact/hooks";
 import { t } from "../i18n";
@@ -39,6 +39,11 @@ const tabs = computed(() => (inSetup.value ? SETUP_TABS : TABS));
 const shown = computed(
   () => (tabs.value.find((tab) => tab.id === chosen.value) ?? tabs.value[0])?.id ?? "drive",
 );
+
+/** As set-up begins, its view comes up, whatever was shown: the wizard goes on there. */
+effect(() => {
+  if (inSetup.value) chosen.value = "setup";
+});
 
 /** Go to where orders are typed, from whatever view is shown. */
 export function toGoalBox(): void {
