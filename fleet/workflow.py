@@ -11,7 +11,7 @@ import asyncio
 import json
 import logging
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from dbos import DBOS, DBOSConfig, SetWorkflowID, StepOptions
 from sqlalchemy.exc import SQLAlchemyError
@@ -21,10 +21,10 @@ from fleet.records import CANCELLED, GOAL_ENDED, REFUSED
 from fleet.watch import LOST, RobotWatch, mission_body
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
+    from collections.abc import Awaitable, Callable, Iterable
 
-    from fleet.desk import Desk
     from fleet.records import MissionRow
+    from fleet.store import FleetStore
 
 log = logging.getLogger(__name__)
 
@@ -38,10 +38,25 @@ WAIT_S = 20.0
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.2, 5.0
 WRONG_ROBOT = frozenset({"pin_mismatch", "robot_mismatch"})
 
-_desks: list[Desk] = []
+
+class MissionDesk(Protocol):
+    """Be where missions are carried: what their workflows ask of it."""
+
+    store: FleetStore
+    running: dict[str, asyncio.Event]
+    swept: int
+
+    def watch_of(self, name: str) -> RobotWatch: ...
+
+    def wake(self, missions: Iterable[str]) -> None: ...
+
+    async def wait_for(self, mission_id: str, seconds: float) -> None: ...
 
 
-def launch(desk: Desk, url: str) -> None:
+_desks: list[MissionDesk] = []
+
+
+def launch(desk: MissionDesk, url: str) -> None:
     """Start the engine on a database; it takes up the workflows of before. Call it in the loop."""
     _desks[:] = [desk]
     config: DBOSConfig = {
@@ -127,7 +142,7 @@ async def _offer(mission_id: str) -> str:
         pause_s = min(2.0 * pause_s, LONGEST_PAUSE_S if watch.is_ready else 1.0)
 
 
-async def _offer_once(desk: Desk, watch: RobotWatch, mission: MissionRow) -> bool:
+async def _offer_once(desk: MissionDesk, watch: RobotWatch, mission: MissionRow) -> bool:
     """Try once; return whether something has come of it."""
     barred = await asyncio.to_thread(desk.store.is_barred, mission)
     reason = "cancelled_first" if mission.wish else "stopped_first"
@@ -150,7 +165,7 @@ async def _offer_once(desk: Desk, watch: RobotWatch, mission: MissionRow) -> boo
 
 
 async def _judge_refusal(
-    desk: Desk, watch: RobotWatch, mission: MissionRow, refused: RobotRefusal
+    desk: MissionDesk, watch: RobotWatch, mission: MissionRow, refused: RobotRefusal
 ) -> bool:
     if refused.status in TOKEN_REFUSED or refused.code in WRONG_ROBOT:  # a person can mend it
         watch.is_ready, watch.trouble = False, refused.code
@@ -207,7 +222,7 @@ async def _tell(mission_id: str) -> str:
     return mission.state
 
 
-async def sweep(desk: Desk) -> None:
+async def sweep(desk: MissionDesk) -> None:
     """Begin missions at work again that stand still, for ever."""
     idle_since: dict[str, float] = {}
     while True:
@@ -224,7 +239,7 @@ async def sweep(desk: Desk) -> None:
             log.warning("store_unavailable: %s", error)
 
 
-async def _begin_again(desk: Desk, mission: MissionRow) -> None:
+async def _begin_again(desk: MissionDesk, mission: MissionRow) -> None:
     status = await DBOS.get_workflow_status_async(_workflow_id(mission))
     desk.swept += 1
     log.warning("mission %s stood still (%s)", mission.id, status.status if status else "unbegun")

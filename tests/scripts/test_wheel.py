@@ -23,6 +23,7 @@ PRODUCT = {
     "sim",
     "lockstep",
     "pons",
+    "fleet",
 }
 LEFT_OUT = {"tools", "tests", "scripts", "examples", "train", "bench", "attack"}
 
