@@ -21,9 +21,9 @@ from fleet.addressee import STOPS, Addressee, is_stop, read_addressee, to_names
 from fleet.dispatch import Dispatcher
 from fleet.errors import FleetError
 from fleet.link import RobotAway, RobotBusy, RobotRefusal
-from fleet.records import ASKING, GIVEN_UP, MissionRow, RobotRow, show_robot
+from fleet.records import ASKING, GIVEN_UP, MissionRow, RobotRow
 from fleet.robots import link_of
-from fleet.watch import SOURCE, STOP_S, RobotWatch
+from fleet.watch import SOURCE, STOP_S, RobotWatch, show_robot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

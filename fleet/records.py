@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 
     import sqlalchemy as sa
 
-    from fleet.watch import RobotWatch
 
 WAITING, OFFERED, AT_ROBOT, ASKING, UNKNOWN = "waiting", "offered", "at_robot", "asking", "unknown"
 SUCCEEDED, FAILED, REFUSED, CANCELLED, GIVEN_UP = (
@@ -111,20 +110,6 @@ def show_mission(mission: MissionRow) -> dict[str, Any]:
         shown[name] = json.loads(text) if text else None
     shown["message"] = _message(mission, shown["outcome"])
     return shown
-
-
-def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> dict[str, Any]:
-    """Return a robot as the API shows it."""
-    card, status = robot.capabilities, watch.told.get("status") or {}
-    return {
-        "name": robot.name, "robot_id": robot.robot_id, "url": robot.url,
-        "state": "ready" if watch.is_ready else watch.trouble or "connecting",
-        "heard_unix_s": watch.heard_unix_s, "mission": mission_id,
-        "mode": status.get("mode"), "base_in_map": status.get("base_in_map"),
-        "room": watch.told.get("room"), "map_id": card.get("map_id"), "site": card.get("site"),
-        "release": card.get("release"), "camera": card.get("camera"),
-        "pin": {"kind": robot.pin_kind, "sha256": robot.pin_sha256},
-    }  # fmt: skip
 
 
 def _message(mission: MissionRow, outcome: dict[str, Any] | None) -> dict[str, str] | None:

@@ -20,7 +20,7 @@ from fleet.link import FleetLink, RobotAway, RobotBusy, RobotRefusal
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from fleet.records import MissionRow
+    from fleet.records import MissionRow, RobotRow
     from fleet.store import FleetStore
 
 log = logging.getLogger(__name__)
@@ -226,3 +226,17 @@ def mission_body(mission: MissionRow) -> dict[str, Any]:
     """Return what is offered of a mission, each time the same."""
     body: dict[str, Any] = json.loads(mission.body)
     return body
+
+
+def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> dict[str, Any]:
+    """Return a robot as the API shows it."""
+    card, status = robot.capabilities, watch.told.get("status") or {}
+    return {
+        "name": robot.name, "robot_id": robot.robot_id, "url": robot.url,
+        "state": "ready" if watch.is_ready else watch.trouble or "connecting",
+        "heard_unix_s": watch.heard_unix_s, "mission": mission_id,
+        "mode": status.get("mode"), "base_in_map": status.get("base_in_map"),
+        "room": watch.told.get("room"), "map_id": card.get("map_id"), "site": card.get("site"),
+        "release": card.get("release"), "camera": card.get("camera"),
+        "pin": {"kind": robot.pin_kind, "sha256": robot.pin_sha256},
+    }  # fmt: skip
