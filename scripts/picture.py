@@ -60,7 +60,7 @@ def _drive(page: Page, url: str, sentence: str) -> None:
         return
     page.fill("#goal-text", sentence)
     page.keyboard.press("Enter")
-    page.locator(".motion", has_text="m/s").first.wait_for()
+    page.locator(".motion", has_text="Moving").first.wait_for()
     page.locator("#camera .screen:not([hidden])").wait_for()
     page.wait_for_timeout(DRIVES_MS)
 
