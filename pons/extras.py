@@ -7,6 +7,8 @@ import sys
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+from pons.terminal import pick
+
 if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
@@ -16,8 +18,7 @@ EXIT_USAGE = 2
 def become_fleet(settings: LaunchSettings, words: list[str]) -> int:
     """Be ``pons fleet``, by becoming its process."""
     if find_spec("dbos") is None:
-        print("fleet_missing: pip install 'pons-robot[fleet]'", file=sys.stderr)
-        return EXIT_USAGE
+        return _tell_missing("fleet")
     sys.stdout.flush()
     environment = {**os.environ, "PONS_HOME": str(settings.home)}
     os.execve(sys.executable, [sys.executable, "-m", "fleet", *words], environment)
@@ -31,6 +32,12 @@ def serve_mcp(settings: LaunchSettings, words: list[str]) -> int:
     except ModuleNotFoundError as missing:
         if missing.name not in ("mcp", "mcp_types"):
             raise
-        print("mcp_missing: pip install -e '.[mcp]'", file=sys.stderr)
-        return EXIT_USAGE
+        return _tell_missing("mcp")
     return serve(settings, words)
+
+
+def _tell_missing(extra: str) -> int:
+    cure = f"pip install 'pons-robot[{extra}]'"
+    told = pick(f"the library is not here; install it: {cure}", f"缺少所需的库；请安装：{cure}")
+    print(f"{extra}_missing: {told}", file=sys.stderr)
+    return EXIT_USAGE

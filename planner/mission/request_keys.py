@@ -32,11 +32,14 @@ class Repeats:
 
     async def look_up(self, key: str | None) -> None:
         """Take up a key that is older than those remembered, where more may be kept than these."""
-        full = len(self._keys) >= MAX_KEYS
-        if key is None or key in self._keys or self.find_older is None or not full:
+        if key is None or self.find_older is None or not self.may_be_older(key):
             return
         if (older := await self.find_older(key)) is not None:
             self.remember(older)
+
+    def may_be_older(self, key: str | None) -> bool:
+        """Return whether the disk may know a key that is not at hand: others were dropped."""
+        return key is not None and key not in self._keys and len(self._keys) >= MAX_KEYS
 
     def recall(self, kept: Iterable[GoalKey]) -> None:
         """Take up the journal's keys, oldest first."""

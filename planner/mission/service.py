@@ -184,7 +184,8 @@ class Missions:
             JournalDown: it can't be written down, so it was not taken.
             UnknownGoal: the request made a goal before that is at hand no more; the journal has it.
         """
-        if idempotency_key is not None and not self.hears_stop(text):  # a stop waits for no disk
+        # A stop waits for no disk.
+        if self._repeats.may_be_older(idempotency_key) and not self.hears_stop(text):
             await self._repeats.look_up(idempotency_key)
         said, goal_id = parse(text), self._clocks.new_id()
         act = None if is_agents(source) else act
