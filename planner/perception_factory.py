@@ -16,11 +16,10 @@ from planner.language.object_names import name_object
 from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.mission.skills.search_bounds import MOST_PICTURES
 from planner.perception import VisionFailure, VisionWorker
-from planner.perception.dependencies import PerceptionParts
 from planner.perception.failure import REFUSALS
 from planner.perception.frame_source import WireCamera
 from planner.perception.frame_update import Scenery
-from planner.perception.perception_loop import Sightseer
+from planner.perception.perception_loop import PerceptionParts, Sightseer
 from planner.perception.pose_buffer import Poses
 from planner.plan import Bilingual
 

@@ -6,8 +6,15 @@ This door stays light: numpy, OpenCV and onnxruntime live in that process alone.
 from planner.perception.failure import VisionFailure
 from planner.perception.interfaces import Eyes, MapPoint, Picture, PointRefusal
 from planner.perception.process_client import VisionWorker
-from planner.perception.result import DetectorInfo, LookResult
-from planner.perception.snapshot import Box, Detection, LookSnapshot, Sight, Thing
+from planner.perception.snapshot import (
+    Box,
+    Detection,
+    DetectorInfo,
+    LookResult,
+    LookSnapshot,
+    Sight,
+    Thing,
+)
 
 __all__ = [
     "Box",

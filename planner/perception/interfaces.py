@@ -8,8 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from planner.perception.result import LookResult
-from planner.perception.snapshot import Sight
+from planner.perception.snapshot import LookResult, Sight
 
 if TYPE_CHECKING:
     from collections.abc import Callable

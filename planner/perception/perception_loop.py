@@ -11,27 +11,44 @@ import asyncio
 import logging
 import time
 from collections import Counter
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from planner.language.object_names import canonical
 from planner.perception.failure import REFUSALS, VisionFailure
-from planner.perception.frame_source import Pictures
+from planner.perception.frame_source import POLL_S, Attention, Pictures
 from planner.perception.interfaces import PointRefusal
-from planner.perception.look_rate import POLL_S, Attention
 from planner.perception.object_map import ObjectMap
-from planner.perception.pending_poses import PendingPoses
-from planner.perception.pixel_to_map import pixel, point_on_map
-from planner.perception.projection import View
+from planner.perception.pose_buffer import PendingPoses
+from planner.perception.projection import View, pixel, point_on_map
 from processes.backoff import Backoff
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from planner.perception.dependencies import PerceptionParts
+    from planner.perception.frame_source import Camera
+    from planner.perception.frame_update import Scenery
     from planner.perception.interfaces import Detector, MapPoint, Picture
-    from planner.perception.result import LookResult
-    from planner.perception.snapshot import Sight, Thing
+    from planner.perception.object_store import ThingStore
+    from planner.perception.pose_buffer import Poses
+    from planner.perception.snapshot import LookResult, Sight, Thing
+
+
+@dataclass(frozen=True, slots=True)
+class PerceptionParts:
+    """Hold what eyes are made of."""
+
+    scenery: Scenery
+    camera: Camera
+    detector: Detector | None
+    poses: Poses
+    store: ThingStore | None = None
+    has_model: bool = True
+    """The detector has something to detect with, as far as is known before it starts."""
+    rate_hz: float = 10.0
+    """Of looks, while somebody needs eyes."""
+
 
 log = logging.getLogger(__name__)
 

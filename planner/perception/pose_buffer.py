@@ -3,7 +3,9 @@
 Stamps are one host's monotonic clock [s]; they align a picture with odometry, they prove no
 freshness. ``base`` in ``odom`` comes at 50 Hz and is interpolated; ``odom`` in ``map`` wanders
 slowly and is interpolated where two answers lie around the instant, else the nearest one counts.
-Law: what another odometry, another map or a poor localization says is no pose.
+Law: what another odometry, another map or a poor localization says is no pose. A model may think
+for a minute, and odometry's history is five seconds: a picture that is handed out keeps the stance
+of its instant for as long as it may be asked about.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from typing import TYPE_CHECKING
 from wire import Pose2, compose, wrap
 
 if TYPE_CHECKING:
+    from planner.perception.interfaces import Picture
     from wire import Localization, Odometry
 
 KEPT = 256
@@ -142,3 +145,45 @@ def blend(a: Pose2, b: Pose2, share: float) -> Pose2:
         a.y_m + share * (b.y_m - a.y_m),
         wrap(a.yaw_rad + share * wrap(b.yaw_rad - a.yaw_rad)),
     )
+
+
+KEPT_STANCES = 128
+SETTLED_S = 0.3
+"""So long after a picture, odometry and localization of its instant have come, or never will."""
+
+Shot = tuple[str, int]
+
+
+class PendingPoses:
+    """Hold the stances of pictures by boot and seq of their camera."""
+
+    def __init__(self) -> None:
+        self._stances: dict[Shot, Stance] = {}
+        self._waiting: dict[Shot, float] = {}
+
+    def note(self, picture: Picture) -> None:
+        """Take note that somebody has this picture."""
+        shot = _shot_of(picture)
+        if shot not in self._stances:
+            self._waiting[shot] = picture.taken_s
+
+    def settle(self, poses: Poses, now_s: float) -> None:
+        """Look up the stances that are known by now."""
+        for shot, taken_s in tuple(self._waiting.items()):
+            if now_s - taken_s >= SETTLED_S:
+                del self._waiting[shot]
+                self._keep(shot, poses.at(taken_s))
+
+    def stance(self, picture: Picture, poses: Poses) -> Stance | None:
+        """Return where the robot was when a picture was taken."""
+        return self._stances.get(_shot_of(picture)) or poses.at(picture.taken_s)
+
+    def _keep(self, shot: Shot, stance: Stance | None) -> None:
+        if stance is not None:
+            self._stances[shot] = stance
+            if len(self._stances) > KEPT_STANCES:
+                del self._stances[next(iter(self._stances))]
+
+
+def _shot_of(picture: Picture) -> Shot:
+    return picture.color.header.boot_id, picture.color.header.seq

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from planner.language.object_names import canonical, name_kinds
 from planner.perception.failure import VisionFailure
-from planner.perception.ipc import read_about, read_look
-from planner.perception.result import DetectorInfo, LookResult
+from planner.perception.snapshot import DetectorInfo, LookResult, read_about, read_look
 from planner.settings.vision import OPEN
 from processes.worker import SupervisedWorker
 from processes.worker_protocol import FailureCodes, Frame

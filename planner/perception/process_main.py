@@ -24,7 +24,7 @@ from planner.perception.detect import (
     unpack_depth,
 )
 from planner.perception.failure import VisionFailure
-from planner.perception.ipc import look_frame
+from planner.perception.snapshot import look_frame
 from processes.worker_main import ParentPipes, run_worker
 from processes.worker_protocol import Frame
 

@@ -1,13 +1,16 @@
 """Own the eyes' reports: detections in a picture, things on the map, one look whole. Data only.
 
 Pixels: x right, y down, from the picture's upper left corner. Positions: metres in ``map``. Times:
-``*_s`` on this planner's monotonic clock. No numpy: missions and routes read these too.
+``*_s`` on this planner's monotonic clock. No numpy: missions and routes read these too. The answers
+of the vision's process are here with the frames in which they cross to the planner.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from processes.worker_protocol import Frame
 
 if TYPE_CHECKING:
     from wire import Pose2
@@ -84,3 +87,94 @@ class Sight:
     """Why nothing is seen now (a stable code: ``no_camera``, ``no_detector``, ``camera_silent``,
     ``camera_frozen``, ``camera_unusable``, ``detector_down``, or what the detector was refused
     for); None while pictures are thought upon."""
+
+
+@dataclass(frozen=True, slots=True)
+class LookResult:
+    """Hold the detections in one picture, or why it was skipped."""
+
+    detections: tuple[Detection, ...]
+    width: int
+    height: int
+    """Of the picture [px]; 0 where it could not even be told."""
+    took_s: float
+    """In the vision process, decoding included."""
+    skipped: str | None = None
+    """A code of :data:`planner.perception.failure.SKIPS`; then there are no detections."""
+    depth_lost: str | None = None
+    """A code of the same, where it was looked at without its depth for that."""
+    wide: bool = False
+    """The open-vocabulary model looked, too: what it knows and did not find is not there."""
+
+
+@dataclass(frozen=True, slots=True)
+class DetectorInfo:
+    """Say which detector runs, how its output is read, where, and why so."""
+
+    model: str
+    """The file's name."""
+    decoder: str
+    why: str
+    """Why this decoder."""
+    provider: str
+    provider_why: str
+    classes: tuple[str, ...]
+    """Ids, in the model's order; '' where it has a class without a name."""
+    width: int
+    height: int
+    """Of the model's input [px]."""
+    least: str
+    """How high something must score to be reported, in words."""
+    words: tuple[tuple[str, ...], ...] = ()
+    """All that people may call each class, where the owner gave several names; else none."""
+    beside: DetectorInfo | None = None
+    """The open-vocabulary model that looks where a step needs it."""
+
+    @property
+    def line(self) -> str:
+        """Say it all in one line for a log."""
+        size = f"{self.width}x{self.height}"
+        count = sum(map(bool, self.classes))
+        told = (
+            f"detector {self.model}: input {size}, {count} classes; decoder {self.decoder} "
+            f"({self.why}); provider {self.provider} ({self.provider_why}); "
+            f"least score {self.least}"
+        )
+        return told if self.beside is None else f"{told}; beside it {self.beside.line}"
+
+
+def look_frame(result: LookResult) -> Frame:
+    """Return a result as a frame."""
+    return asdict(result), b""
+
+
+def read_look(frame: Frame) -> LookResult:
+    """Return the result that :func:`look_frame` wrote. Raises KeyError, TypeError or ValueError."""
+    head, _ = frame
+    skipped, depth_lost = head["skipped"], head["depth_lost"]
+    return LookResult(
+        detections=tuple(map(_detection, head["detections"])),
+        width=int(head["width"]),
+        height=int(head["height"]),
+        took_s=float(head["took_s"]),
+        skipped=None if skipped is None else str(skipped),
+        depth_lost=None if depth_lost is None else str(depth_lost),
+        wide=bool(head["wide"]),
+    )
+
+
+def _detection(item: dict[str, Any]) -> Detection:
+    left, top, right, bottom = (float(side) for side in item["box"])
+    return Detection(**{**item, "box": (left, top, right, bottom)})
+
+
+def read_about(head: dict[str, Any] | None) -> DetectorInfo | None:
+    """Return the running detector; None without a model. Raises KeyError or TypeError."""
+    if head is None:
+        return None
+    told = {
+        "classes": tuple(head["classes"]),
+        "words": tuple(map(tuple, head["words"])),
+        "beside": read_about(head["beside"]),
+    }
+    return DetectorInfo(**{**head, **told})

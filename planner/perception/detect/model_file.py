@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from planner.perception.detect.class_names import BESIDE, names_in, names_of
 from planner.perception.detect.decoders import Choice, choose
+from planner.perception.detect.decoders.base import Facts, Shape
 from planner.perception.detect.input_size import NUMBERS, Input, find_input, without_batch
-from planner.perception.detect.model_info import Facts, Shape
 from planner.perception.detect.onnx_file import OnnxFile, examine
 from planner.perception.detect.session import (
     FRACTIONS,

@@ -1,21 +1,23 @@
 """Turn a picture into a model's input: fit it in, order its channels, scale its values.
 
-For models that take floats; :mod:`prepare_bytes` is for those that scale by themselves. The float
-buffer and the canvas are made once and used for every picture: making them anew costs
-2.4 ms at 640 x 640. Only what the picture covers is written; the border stays as it was. What a
-byte becomes stands in a table of 256, which OpenCV looks up faster than numpy multiplies.
+For models that take floats, the float buffer and the canvas are made once and used for every
+picture: making them anew costs 2.4 ms at 640 x 640. Only what the picture covers is written; the
+border stays as it was. What a byte becomes stands in a table of 256, which OpenCV looks up faster
+than numpy multiplies. A model that takes bytes scales by itself: where its input is as large as the
+picture, one copy does (0.01 ms at 320 x 240; floats take 0.15 ms).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, cast
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.perception.detect.image_decode import Picture
+from planner.perception.detect.input_size import Input
+from planner.perception.detect.pictures import Picture
 
 Floats = NDArray[np.float32]
 BORDER = 114
@@ -138,3 +140,46 @@ def _table(factor: float, offset: float) -> Floats | None:
     if (factor, offset) == (1.0, 0.0):
         return None
     return np.arange(256, dtype=np.float32) * np.float32(factor) + np.float32(offset)
+
+
+class BytePreparer:
+    """Prepare pictures for a model that takes 1 x height x width x 3 of bytes."""
+
+    def __init__(self, fit: str, channels: Literal["rgb", "bgr"], width: int, height: int) -> None:
+        """Make the buffer."""
+        self._fit, self._channels, self._size = fit, channels, (width, height)
+        self.buffer: Picture = np.full((1, height, width, 3), BORDER, np.uint8)
+        """The model's input; it stays where it is."""
+        self._shape = self.buffer[0].shape
+        self._placed, self._target = place(self._size, self._size, fit), self.buffer[0]
+
+    def prepare(self, picture: Picture) -> tuple[Picture, Placement]:
+        """Return the input, 1 x height x width x 3, and where the picture lies in it.
+
+        The input is this object's own buffer: the next picture is written over it.
+        """
+        if picture.shape != self._shape:
+            self._make_room(picture.shape)
+        placed = self._placed
+        if picture.shape != self._target.shape:
+            size = placed.width, placed.height
+            picture = cast("Picture", cv2.resize(picture, size, interpolation=cv2.INTER_LINEAR))
+        if self._channels == "rgb":
+            cv2.cvtColor(picture, cv2.COLOR_BGR2RGB, dst=self._target)
+        else:
+            np.copyto(self._target, picture)
+        return self.buffer, placed
+
+    def _make_room(self, shape: tuple[int, ...]) -> None:
+        """Clear the buffer for pictures of another shape."""
+        self.buffer[:] = BORDER
+        self._shape = shape
+        placed = self._placed = place((shape[1], shape[0]), self._size, self._fit)
+        self._target = self.buffer[0, placed.rows, placed.columns]
+
+
+def preparer(recipe: Recipe, taken: Input) -> Preparer:
+    """Return the preparer of pictures for a model's input; of a recipe bytes need the fit alone."""
+    if taken.bytes_in is None:
+        return FloatPreparer(recipe, taken.width, taken.height)
+    return BytePreparer(recipe.fit, taken.bytes_in, taken.width, taken.height)

@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from planner.perception import VisionFailure
-from planner.perception.frame_source import FROZEN_AFTER
-from planner.perception.look_rate import PASSING_HZ, SHOWN_S, STANDING_HZ
+from planner.perception.frame_source import FROZEN_AFTER, PASSING_HZ, SHOWN_S, STANDING_HZ
 from tests.planner.perception.watching import World
 
 

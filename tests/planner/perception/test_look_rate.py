@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.perception.look_rate import EARLY_S, IDLE_POLL_S, POLL_S, REST_S, SHOWN_S, Attention
+from planner.perception.frame_source import EARLY_S, IDLE_POLL_S, POLL_S, REST_S, SHOWN_S, Attention
 
 
 @pytest.mark.parametrize(

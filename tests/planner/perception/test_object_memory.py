@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.perception.data_association import PlacedDetection
+from planner.perception.frame_update import Visible
 from planner.perception.interfaces import MapPoint
 from planner.perception.object_tracker import (
     MOST_THINGS,
@@ -23,7 +24,6 @@ from planner.perception.object_tracker import (
     remember,
 )
 from planner.perception.snapshot import Thing
-from planner.perception.visibility import Visible
 from tests.planner.perception.scenes import box_of, placed, seen, two_room, view
 
 

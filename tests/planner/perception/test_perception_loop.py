@@ -12,10 +12,9 @@ from typing import Any
 import pytest
 
 from planner.perception import Detection, PointRefusal, Sight, VisionFailure
-from planner.perception.frame_source import OLDEST_S
-from planner.perception.look_rate import REST_S
-from planner.perception.pending_poses import KEPT
+from planner.perception.frame_source import OLDEST_S, REST_S
 from planner.perception.perception_loop import Sightseer
+from planner.perception.pose_buffer import KEPT
 from tests.planner.perception.scenes import box_of, image, view
 from tests.planner.perception.watching import CUP, MAP_ID, World
 from wire import DecodeFailure, Localization, Pose2

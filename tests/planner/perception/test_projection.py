@@ -10,9 +10,14 @@ from hypothesis import strategies as st
 
 from planner.language.object_classes import kind_of
 from planner.perception.interfaces import PointRefusal
-from planner.perception.pixel_to_map import OFF_WALL_M, point_on_map
-from planner.perception.projection import USUAL_SHARE, place, spot_at
-from planner.perception.raycast import first_wall_m
+from planner.perception.projection import (
+    OFF_WALL_M,
+    USUAL_SHARE,
+    first_wall_m,
+    place,
+    point_on_map,
+    spot_at,
+)
 from planner.site.polygon import border_distance_m
 from tests.planner.perception.scenes import CAMERA, FOCAL_PX, box_of, seen, two_room, view
 from wire import Pose2, transform

@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from planner.perception import Detection, LookResult, Sight, VisionFailure
-from planner.perception.dependencies import PerceptionParts
 from planner.perception.frame_update import Scenery
 from planner.perception.object_store import FILE, ThingStore
-from planner.perception.perception_loop import Sightseer
+from planner.perception.perception_loop import PerceptionParts, Sightseer
 from planner.perception.pose_buffer import Poses
 from planner.state_database import StateDatabase
 from tests.planner.perception.scenes import CAMERA, box_of, image, two_room, view

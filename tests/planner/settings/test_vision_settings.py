@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from planner.perception.detect.decoders import ALL
-from planner.perception.detect.providers import ORDER
+from planner.perception.detect.session import ORDER
 from planner.settings import FILE, VisionSettings, load_settings
 from planner.settings.vision import DecoderName, ProviderName
 from wire import ConfigError

@@ -22,9 +22,8 @@ from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills.perception import ImageAnswer
 from planner.perception import Detection, LookSnapshot, Sight
 from planner.perception.interfaces import Eyes, MapPoint, Picture
-from planner.perception.pixel_to_map import point_on_map
 from planner.perception.pose_buffer import Stance
-from planner.perception.projection import FARTHEST_M, View
+from planner.perception.projection import FARTHEST_M, View, point_on_map
 from planner.plan import Language
 from planner.settings import ModelSettings
 from planner.site import Site

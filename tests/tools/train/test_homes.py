@@ -9,9 +9,9 @@ import cv2
 import numpy as np
 import pytest
 
-from planner.perception.detect.nms import MAX_OVERLAP
-from planner.perception.detect.score_thresholds import KEY as KEY_READ
-from planner.perception.detect.score_thresholds import MIN_SCORE as BELIEVED
+from planner.perception.detect.detections import MAX_OVERLAP
+from planner.perception.detect.detector import KEY as KEY_READ
+from planner.perception.detect.detector import MIN_SCORE as BELIEVED
 from planner.settings.vision import VisionSettings
 from sim.camera import Appearance, Renderer
 from sim.camera.scene import instances

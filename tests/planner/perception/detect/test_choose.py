@@ -8,7 +8,7 @@ import pytest
 
 from planner.perception.detect.class_names import names_in, names_of
 from planner.perception.detect.decoders import choose
-from planner.perception.detect.model_info import Facts, Shape
+from planner.perception.detect.decoders.base import Facts, Shape
 from planner.perception.failure import VisionFailure
 
 COCO = tuple(f"thing_{number}" for number in range(80))

@@ -7,8 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from planner.language.object_classes import kind_of
-from planner.perception.detect.depth_hints import hints
-from planner.perception.detect.depth_sampling import ANY, look_inside
+from planner.perception.detect.depth_sampling import ANY, hints, look_inside
 
 SIZE, FOCAL_PX = (320, 240), 234.0
 CHAIR, TABLE = (100, 80, 140, 160), (60, 100, 260, 220)

@@ -12,7 +12,7 @@ from planner.perception.detect.depth_sampling import (
     inner,
     look_inside,
 )
-from planner.perception.detect.image_decode import Depth, Picture
+from planner.perception.detect.pictures import Depth, Picture
 
 WALL_MM = 4000
 BOX = (20.0, 20.0, 60.0, 60.0)

@@ -11,10 +11,10 @@ import pytest
 
 from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.decoders import choose
-from planner.perception.detect.decoders.layout_trial import has_objectness
-from planner.perception.detect.decoders.yolox import grid
+from planner.perception.detect.decoders.base import Facts, Shape
+from planner.perception.detect.decoders.layout_choice import has_objectness
+from planner.perception.detect.decoders.yolo import grid
 from planner.perception.detect.model_file import GREY
-from planner.perception.detect.model_info import Facts, Shape
 from planner.perception.failure import VisionFailure
 from tests.planner.perception.detect import tiny
 

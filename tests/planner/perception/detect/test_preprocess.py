@@ -11,10 +11,24 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.perception.detect.detections import Row, filter_rows, in_picture, rows_of
-from planner.perception.detect.nms import MAX_CANDIDATES, MAX_FOUND, strongest, suppress
-from planner.perception.detect.preprocess import BORDER, FloatPreparer, Preparer, Recipe, place
-from planner.perception.detect.preprocess_bytes import BytePreparer
+from planner.perception.detect.detections import (
+    MAX_CANDIDATES,
+    MAX_FOUND,
+    Row,
+    filter_rows,
+    in_picture,
+    rows_of,
+    strongest,
+    suppress,
+)
+from planner.perception.detect.preprocess import (
+    BORDER,
+    BytePreparer,
+    FloatPreparer,
+    Preparer,
+    Recipe,
+    place,
+)
 
 BLUE, GREEN, RED = (250, 20, 10), (20, 240, 10), (20, 10, 230)
 IMAGENET = Recipe("stretched", "rgb", 1 / 255, (0.485, 0.456, 0.406), (0.229, 0.224, 0.225))

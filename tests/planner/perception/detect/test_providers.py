@@ -10,8 +10,7 @@ import onnxruntime as ort
 import pytest
 
 from planner.perception.detect import ModelOptions, OnnxDetector
-from planner.perception.detect.providers import CPU, ORDER, choose
-from planner.perception.detect.session import options
+from planner.perception.detect.session import CPU, ORDER, choose_providers, options
 from planner.perception.failure import VisionFailure
 from tests.planner.perception.detect import tiny
 
@@ -35,7 +34,7 @@ AZURE = "AzureExecutionProvider"
 def test_the_fastest_offered_is_taken(
     offered: tuple[str, ...], wanted: str | None, names: tuple[str, ...], why: str
 ) -> None:
-    chosen = choose(offered, wanted)
+    chosen = choose_providers(offered, wanted)
     assert (chosen.names, chosen.why) == (names, why)
     short = next(key for key, long in ORDER.items() if long == names[0])
     assert chosen.explain(names) == (short, why)
@@ -44,16 +43,16 @@ def test_the_fastest_offered_is_taken(
 @pytest.mark.parametrize(("offered", "wanted"), [((CPU,), "cuda"), ((AZURE,), None), ((), None)])
 def test_what_is_not_offered_is_refused(offered: tuple[str, ...], wanted: str | None) -> None:
     with pytest.raises(VisionFailure, match="provider_unavailable"):
-        choose(offered, wanted)
+        choose_providers(offered, wanted)
 
 
 def test_what_was_offered_but_did_not_start_is_said_and_refused_where_it_was_set() -> None:
-    assert choose((CUDA, CPU)).explain((CPU,)) == (
+    assert choose_providers((CUDA, CPU)).explain((CPU,)) == (
         "cpu",
         "cuda was offered but did not start; cpu runs",
     )
     with pytest.raises(VisionFailure, match="cuda was offered but did not start"):
-        choose((CUDA, CPU), "cuda").explain((CPU,))
+        choose_providers((CUDA, CPU), "cuda").explain((CPU,))
 
 
 class Devices:

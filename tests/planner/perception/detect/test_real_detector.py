@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from planner.perception.detect import ModelOptions, OnnxDetector
-from planner.perception.result import LookResult
+from planner.perception.snapshot import LookResult
 
 SEEN = {
     "om1_indoor_2.jpg": {"pottedplant"},

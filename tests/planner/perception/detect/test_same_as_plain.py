@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from planner.perception.color_classifier import IDS, _table
 from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.decoders import ALL
+from planner.perception.detect.decoders.base import Facts
 from planner.perception.detect.detections import filter_rows
-from planner.perception.detect.image_decode import Picture
-from planner.perception.detect.model_info import Facts
+from planner.perception.detect.pictures import Picture
 
 Box = tuple[float, float, float, float]
 Row = tuple[float, int, Box]

@@ -8,7 +8,7 @@ import pytest
 
 from planner.perception.detect import ModelOptions, OnnxDetector
 from planner.perception.detect.detections import Row, filter_rows
-from planner.perception.detect.score_thresholds import MIN_SCORE, least_scores
+from planner.perception.detect.detector import MIN_SCORE, least_scores
 from tests.planner.perception.detect import tiny
 
 

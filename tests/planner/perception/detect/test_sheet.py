@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from planner.brain.image_questions import LONG_SIDE_PX, MAX_VIEWS
 from planner.perception.detect import lay_out, unpack_color
-from planner.perception.detect.image_decode import Picture
-from planner.perception.detect.sheet import GAP_PX, LABEL_PX, grid_of
+from planner.perception.detect.pictures import GAP_PX, LABEL_PX, Picture, grid_of
 from tests.laws import at_least
 
 COLORS = [(255, 0, 0), (0, 255, 0), (0, 0, 255), (0, 255, 255), (255, 0, 255), (128, 128, 128)]
