@@ -5,6 +5,8 @@ from __future__ import annotations
 import sqlalchemy as sa
 from sqlalchemy import event
 
+from fleet.schema import bring_up
+
 metadata = sa.MetaData()
 
 robots = sa.Table(
@@ -90,9 +92,12 @@ def open_database(url: str) -> sa.Engine:
         event.listen(engine, "connect", _prepare_sqlite)
         event.listen(engine, "begin", _begin_writing)
     else:
-        engine = sa.create_engine(made.set(drivername="postgresql+psycopg"), pool_pre_ping=True)
+        engine = sa.create_engine(
+            made.set(drivername="postgresql+psycopg"), pool_pre_ping=True, pool_size=20,
+            connect_args={"connect_timeout": 5, "tcp_user_timeout": 10_000},
+        )  # fmt: skip
     with engine.begin() as connection:
-        metadata.create_all(connection)
+        bring_up(connection, metadata)
         if connection.execute(sa.select(counter.c.value)).scalar() is None:
             connection.execute(counter.insert().values(id=1, value=0))
     return engine

@@ -40,6 +40,7 @@ class Journal:
         self.rules: dict[str, Any] = {
             "work_s": 0.05, "lose_answers": 0, "ask": False, "token": "", "id": name,
             "length_m": 5.0, "refuse": None, "role": "dispatcher", "places": ["kitchen", "hall"],
+            "resume": False,
         }  # fmt: skip
         self.disk = sqlite3.connect(
             folder / f"{name}.journal", check_same_thread=False, isolation_level=None
@@ -113,6 +114,8 @@ class Journal:
                 began = self.since.setdefault(goal_id, time.monotonic())
                 if time.monotonic() - began >= self.rules["work_s"]:
                     self.move(goal_id, "succeeded")
+            elif state == "paused" and self.rules["resume"]:
+                self.move(goal_id, "running", answered=True)
 
     def changes(self, after: int, limit: int) -> dict[str, Any]:
         rows = self.disk.execute(
