@@ -10,7 +10,7 @@ import sqlalchemy as sa
 
 from fleet.errors import FleetError
 from fleet.records import RobotRow, robot_row
-from fleet.tables import open_database, robots, stops
+from fleet.tables import counter, open_database, robots, stops
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
@@ -81,6 +81,11 @@ class RobotStore:
             rows = connection.execute(wanted).all()
         confirmed = [row.robot for row in rows if row.confirmed_unix_s is not None]
         return confirmed, [row.robot for row in rows if row.confirmed_unix_s is None]
+
+    def newest_change(self) -> int:
+        """Return the cursor after which nothing has changed yet."""
+        with self.engine.begin() as connection:
+            return int(connection.execute(sa.select(counter.c.value)).scalar_one())
 
     def _write(self, statement: sa.Executable) -> None:
         with self.engine.begin() as connection:

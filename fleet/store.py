@@ -160,11 +160,6 @@ class FleetStore(RobotStore):
         shown += [row for row in found[limit:] if row.change == shown[-1].change]
         return shown, shown[-1].change if len(found) > len(shown) else max(newest, cursor)
 
-    def newest_change(self) -> int:
-        """Return the cursor after which nothing has changed yet."""
-        with self.engine.begin() as connection:
-            return int(connection.execute(sa.select(counter.c.value)).scalar_one())
-
     def newest(self, limit: int) -> list[MissionRow]:
         """Return missions, those that are open first, then the newest."""
         open_first = sa.case((missions.c.state.in_(list(ENDED)), 1), else_=0)
@@ -329,11 +324,9 @@ class FleetStore(RobotStore):
 
     # ----------------------------------------------------------------------------------------------
 
-    def _find(
-        self, condition: sa.ColumnElement[bool], limit: int | None = None
-    ) -> list[MissionRow]:
+    def _find(self, condition: sa.ColumnElement[bool]) -> list[MissionRow]:
         with self.engine.begin() as connection:
-            return _select(connection, condition, limit)
+            return _select(connection, condition)
 
     def _change(
         self, connection: sa.Connection, condition: sa.ColumnElement[bool], values: dict[str, Any]
@@ -349,8 +342,6 @@ class FleetStore(RobotStore):
         return int(connection.execute(sa.select(counter.c.value)).scalar_one())
 
 
-def _select(
-    connection: sa.Connection, condition: sa.ColumnElement[bool], limit: int | None = None
-) -> list[MissionRow]:
-    wanted = sa.select(missions).where(condition).order_by(missions.c.seq).limit(limit)
+def _select(connection: sa.Connection, condition: sa.ColumnElement[bool]) -> list[MissionRow]:
+    wanted = sa.select(missions).where(condition).order_by(missions.c.seq)
     return [mission_row(row) for row in connection.execute(wanted).mappings()]

@@ -22,7 +22,7 @@ class Cluster:
     """Hold one cluster; it may be stopped as a machine that fails, and begun again."""
 
     def __init__(self, tools: Path, place: Path) -> None:
-        self._tools, self._place = tools, place
+        self._tools, self.place = tools, place
         self._user = pwd.getpwnam("nobody") if os.geteuid() == 0 else pwd.getpwuid(os.geteuid())
         os.chown(place, self._user.pw_uid, self._user.pw_gid)
         self.run("initdb", "-D", str(place / "data"), "-U", "fleet", "-A", "trust", "-N")
@@ -30,14 +30,14 @@ class Cluster:
 
     def url(self, database: str = "postgres") -> str:
         """Return the URL of a database."""
-        return f"postgresql://fleet@/{database}?host={self._place}"
+        return f"postgresql://fleet@/{database}?host={self.place}"
 
     def run(self, tool: str, *words: str) -> str:
         """Run one of Postgres' tools as the cluster's user; return what it prints."""
         return subprocess.run(
             [str(self._tools / tool), *words], check=True, capture_output=True, text=True,
-            cwd=self._place, user=self._user.pw_uid, group=self._user.pw_gid, timeout=120,
-            env={"PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8", "PGHOST": str(self._place),
+            cwd=self.place, user=self._user.pw_uid, group=self._user.pw_gid, timeout=120,
+            env={"PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8", "PGHOST": str(self.place),
                  "PGUSER": "fleet"},
         ).stdout  # fmt: skip
 
@@ -49,13 +49,13 @@ class Cluster:
 
     def start(self) -> None:
         """Start it and wait until it answers."""
-        options = f"-k {self._place} -c listen_addresses= -c fsync=off"
-        self.run("pg_ctl", "-D", str(self._place / "data"), "-l", str(self._place / "log"), "-w",
+        options = f"-k {self.place} -c listen_addresses= -c fsync=off"
+        self.run("pg_ctl", "-D", str(self.place / "data"), "-l", str(self.place / "log"), "-w",
                  "-o", options, "start")  # fmt: skip
 
     def stop(self) -> None:
         """Let it fall: nothing is flushed and no client is told."""
-        self.run("pg_ctl", "-D", str(self._place / "data"), "-m", "immediate", "-w", "stop")
+        self.run("pg_ctl", "-D", str(self.place / "data"), "-m", "immediate", "-w", "stop")
 
 
 @contextmanager
