@@ -307,7 +307,8 @@ class FleetStore(RobotStore):
                     values = {"state": CANCELLED, "reason": "stopped_first"}
                     self._change(connection, missions.c.id == mission.id, values)
                     ended.append(mission.id)
-            return ended
+        self.forget_stops()
+        return ended
 
     def owe_stop(self, *stop: Any, **more: Any) -> None:
         """Keep a stop that the database did not take; it is noted before anything is offered."""

@@ -1,6 +1,6 @@
 """Measure the service beside 30 robots' doors: ``python -m tests.fleet.measure [--orders 10000]``.
 
-Prints its share of a core and memory at rest, the time in which it accepts orders at 5 a second, and
+Prints its share of a core and memory at rest, how long it takes to accept orders at 5 a second, and
 what a flood does to both. The doors are real servers in one process of their own. Run it alone.
 """
 
@@ -91,8 +91,9 @@ def report(fleet: RunningFleet, orders: int) -> None:
                               range(orders)))  # fmt: skip
     rate = orders / (time.monotonic() - began_s)
     taken = sum(status == 202 for _, status in flood)
-    print(f"{orders} at once by 16: {taken} accepted, {rate:.0f}/s, {describe([t for t, _ in flood])}"
-          f", {megabytes(service):.0f} MB")  # fmt: skip
+    times_s = [taken_s for taken_s, _ in flood]
+    print(f"{orders} at once by 16: {taken} accepted, {rate:.0f}/s, {describe(times_s)},"
+          f" {megabytes(service):.0f} MB")  # fmt: skip
     began_s = time.monotonic()
     told = fleet.client.post("/v1/stop").json()
     print(f"stop all in the flood: {len(told['confirmed'])} confirmed,"
