@@ -10,7 +10,9 @@ RUN apt-get update \
 WORKDIR /opt/pons
 COPY . .
 # The same as on any machine: every package from a lock, checked against its hash; then the page.
-RUN CI=true make setup \
+# EXTRAS=extras adds what the fleet needs.
+ARG EXTRAS=
+RUN CI=true make setup ${EXTRAS} \
     && rm -rf web/node_modules .venv/node-bin tests
 
 FROM ${BASE} AS run

@@ -9,6 +9,7 @@ BIN := .venv/bin
 RUNTIME := .venv/.installed
 DEV := .venv/.installed-dev
 ATTACK := .venv/.installed-attack
+EXTRAS := .venv/.installed-extras
 PAGE := web/dist/index.html
 PAGE_DEV := web/node_modules/.pons-dev
 PAGE_SOURCES := $(shell find web/src web/index.html web/vite.config.ts web/package-lock.json -type f)
@@ -17,12 +18,14 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup dev page firmware wheel run test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
+.PHONY: help setup extras dev page firmware wheel run fleet test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
 setup: $(RUNTIME) $(PAGE) ## make .venv, install what running needs from the locks, build the page
+
+extras: $(EXTRAS) ## add what joins a robot with other programs: fleet, mcp, mqtt, foxglove, traces
 
 dev: $(DEV) $(PAGE_DEV) ## add what testing and checking need
 
@@ -38,6 +41,9 @@ wheel: $(DEV) $(PAGE) ## build the wheel into dist/: packages, page, prompts, si
 run: $(RUNTIME) $(PAGE) ## start simulator, localization, bridge and planner; prints one URL; Ctrl-C ends all
 	@exec $(BIN)/pons up $(ARGS)
 
+fleet: $(EXTRAS) $(PAGE) ## start three simulated robots and their fleet; prints one URL; Ctrl-C ends all (docs/fleet.md)
+	@exec $(BIN)/pons fleet demo
+
 # Stories run real processes in real time; what needs minutes, a browser or a robot of its own is not
 # for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests
 # beside them starve them, nice or not: each robot is a session of its own to the scheduler.
@@ -46,7 +52,7 @@ HOME_ROW := tests/e2e/test_home_tour.py tests/e2e/test_external_brain.py tests/e
   tests/deploy/test_separate_starts.py
 OWN_ROW := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_wheel.py \
   tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_stop_anywhere.py \
-  tests/e2e/test_smart_home.py
+  tests/e2e/test_smart_home.py tests/e2e/test_fleet.py
 PAGE_ROW := tests/web
 # These go with the two shorter rows: the page's would else be as long as both.
 PAGE_BESIDE_HOME := tests/web/test_asked_first.py tests/web/test_missions.py tests/web/test_people.py tests/web/test_points.py
@@ -127,6 +133,10 @@ $(RUNTIME): requirements.lock pyproject.toml scripts/venv.sh scripts/install.sh
 
 $(DEV): requirements-dev.lock $(RUNTIME)
 	@scripts/install.sh requirements-dev.lock
+	@touch $@
+
+$(EXTRAS): requirements-extras.lock $(RUNTIME)
+	@scripts/install.sh requirements-extras.lock
 	@touch $@
 
 $(ATTACK): requirements-attack.lock $(RUNTIME)

@@ -1,4 +1,4 @@
-"""Be the command ``pons fleet``: up | add | list | say | stop | answer | cancel."""
+"""Be the command ``pons fleet``: up | demo | add | list | say | stop | answer | cancel."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+from sqlalchemy.exc import SQLAlchemyError
 
-from fleet.errors import FleetError
+from fleet.errors import FleetError, tell
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 DEFAULT_PORT = 8440
@@ -37,6 +38,9 @@ def main(words: list[str] | None = None) -> int:
     except ServiceProblem as refused:
         print(f"refused: {refused}", file=sys.stderr)
         return EXIT_REFUSED
+    except SQLAlchemyError as error:
+        print(f"store_unavailable: {_pick(tell('store_unavailable'))}\n{error}", file=sys.stderr)
+        return EXIT_DOWN
     except httpx.HTTPError as error:
         told = _pick({"en": "is `pons fleet up` running?", "zh": "`pons fleet up` 是否在运行？"})
         print(f"fleet_down: {error}; {told}", file=sys.stderr)
@@ -57,6 +61,8 @@ def _parser() -> argparse.ArgumentParser:
     up.add_argument("--tls-cert", type=Path)
     up.add_argument("--tls-key", type=Path)
     up.set_defaults(act=_serve)
+    demo = acts.add_parser("demo", help="try it: three simulated robots and their fleet")
+    demo.set_defaults(act=_become_demo)
     add = acts.add_parser("add", help="take a robot in: read its card, pin its certificate")
     add.add_argument("url", help="https://ROBOT[:PORT]")
     add.add_argument("--token", default="", help="of the role dispatcher; - reads it from stdin")
@@ -97,6 +103,13 @@ def _serve(given: argparse.Namespace, home: Path) -> int:
         print(wrong, file=sys.stderr)
         return EXIT_USAGE
     return EXIT_DONE
+
+
+def _become_demo(_: argparse.Namespace, __: Path) -> int:
+    """Become the process that starts robots, of whom the fleet knows the HTTP API alone."""
+    sys.stdout.flush()
+    os.execv(sys.executable, [sys.executable, "-m", "pons.fleet_demo"])
+    return EXIT_USAGE  # not reached
 
 
 def _add(given: argparse.Namespace, home: Path) -> int:

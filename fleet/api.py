@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from starlette.types import ASGIApp
 
     from fleet.access import FleetAccess
+    from fleet.carrier import CarrierLock
     from fleet.desk import Desk
 
 MAX_TEXT_CHARACTERS = 4_000
@@ -90,12 +91,12 @@ class FleetStop(FleetBody):
     robots: Names | None = None
 
 
-def build_app(desk: Desk, access: FleetAccess, url: str) -> ASGIApp:
+def build_app(desk: Desk, access: FleetAccess, url: str, lock: CarrierLock) -> ASGIApp:
     """Return the application; it starts the desk and ends it."""
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        await desk.start(url)
+        await desk.start(url, lock)
         try:
             yield
         finally:
@@ -112,8 +113,9 @@ def build_app(desk: Desk, access: FleetAccess, url: str) -> ASGIApp:
 def _robots(app: FastAPI, desk: Desk) -> None:
     @app.get("/healthz", operation_id="get_health")
     async def health() -> dict[str, Any]:
-        """Say that the service answers, how many it carries, and how many the sweeper began."""
-        return {"running": len(desk.running), "swept": desk.swept, "robots": len(desk.watches)}
+        """Say whether the service carries missions, how many, and how many the sweeper began."""
+        return {"carries": desk.is_carrier, "running": len(desk.running), "swept": desk.swept,
+                "robots": len(desk.watches)}  # fmt: skip
 
     @app.get("/v1/robots", operation_id="list_robots")
     async def robots() -> dict[str, Any]:
@@ -134,7 +136,8 @@ def _robots(app: FastAPI, desk: Desk) -> None:
 def _missions(app: FastAPI, desk: Desk) -> None:
     def view(mission: MissionRow) -> dict[str, Any]:
         shown = show_mission(mission)
-        if (waits_for := desk.dispatcher.waits_for(mission)) is not None:
+        waits_for = desk.dispatcher.waits_for(mission) if desk.is_carrier else None
+        if waits_for is not None:
             shown["reason"], shown["message"] = waits_for, tell(waits_for)
         return shown
 

@@ -11,6 +11,7 @@ import json
 import logging
 import re
 import uuid
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +19,11 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from fleet import workflow
 from fleet.addressee import STOPS, Addressee, is_stop, read_addressee, to_names
+from fleet.carrier import keep_lock
 from fleet.dispatch import Dispatcher
 from fleet.errors import FleetError
 from fleet.link import RobotAway, RobotBusy, RobotRefusal
-from fleet.records import ASKING, GIVEN_UP, MissionRow, RobotRow
+from fleet.records import ASKING, GIVEN_UP, UNKNOWN, MissionRow, RobotRow
 from fleet.robots import link_of
 from fleet.watch import SOURCE, STOP_S, RobotWatch, show_robot
 
@@ -29,10 +31,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from pathlib import Path
 
+    from fleet.carrier import CarrierLock
     from fleet.store import FleetStore
 
 log = logging.getLogger(__name__)
 
+NOTE_S = 2.0
+"""A stop waits no longer for its row."""
+THREADS = 64
+"""For the database and for names of hosts: one that hangs must not keep a stop from its robot."""
 ROBOTS_S = 2.0
 """So often robots are looked for that ``pons fleet add`` has added."""
 _CHINESE = re.compile(r"[\u4e00-\u9fff]")
@@ -47,6 +54,8 @@ class Desk:
         self.running: dict[str, asyncio.Event] = {}
         """Missions that a workflow of this process carries, and what wakes it."""
         self.swept = 0
+        self.is_carrier = False
+        """It watches robots, chooses and offers; else it reads, accepts and stops."""
         self._rows: dict[str, RobotRow] = {}
         self._tokens: dict[str, str] = {}
         self._tasks: dict[str, asyncio.Task[None]] = {}
@@ -54,13 +63,25 @@ class Desk:
 
     # Life -----------------------------------------------------------------------------------------
 
-    async def start(self, url: str) -> None:
-        """Take up the robots and the missions of before."""
+    async def start(self, url: str, lock: CarrierLock) -> None:
+        """Take up the robots, and the missions of before where no other service carries them."""
         self._loop = asyncio.get_running_loop()
+        self._loop.set_default_executor(ThreadPoolExecutor(THREADS))
         await self._take_up_robots()
+        if await asyncio.to_thread(lock.take):
+            self.carry(url)
+        for name, loop in (("robots", self._look_for_robots()),
+                           ("carrier", keep_lock(self, url, lock))):  # fmt: skip
+            self._tasks[f" {name}"] = asyncio.create_task(loop)
+
+    def carry(self, url: str) -> None:
+        """Watch robots and carry missions from here on. Call it in the loop."""
         workflow.launch(self, url)
-        for name, loop in (("dispatch", self.dispatcher.run()), ("robots", self._look_for_robots()),
-                           ("sweep", workflow.sweep(self))):  # fmt: skip
+        self.is_carrier = True
+        for name, watch in self.watches.items():
+            watch.trouble = None
+            self._tasks[name] = asyncio.create_task(watch.run())
+        for name, loop in (("dispatch", self.dispatcher.run()), ("sweep", workflow.sweep(self))):
             self._tasks[f" {name}"] = asyncio.create_task(loop)
 
     async def close(self) -> None:
@@ -70,7 +91,8 @@ class Desk:
         await asyncio.gather(*self._tasks.values(), return_exceptions=True)
         for watch in self.watches.values():
             await watch.link.close()
-        await asyncio.to_thread(workflow.shut_down)
+        if self.is_carrier:
+            await asyncio.to_thread(workflow.shut_down)
 
     async def _look_for_robots(self) -> None:
         while True:
@@ -92,10 +114,14 @@ class Desk:
             if same:
                 continue
             if known is not None:
-                self._tasks[row.name].cancel()
+                if row.name in self._tasks:
+                    self._tasks[row.name].cancel()
                 await known.link.close()
             watch = self.watches[row.name] = RobotWatch(link, self.store, self.wake)
-            self._tasks[row.name] = asyncio.create_task(watch.run())
+            if self.is_carrier:
+                self._tasks[row.name] = asyncio.create_task(watch.run())
+            else:
+                watch.trouble = "watched_elsewhere"
 
     def watch_of(self, name: str) -> RobotWatch:
         """Return the watch of a robot.
@@ -192,9 +218,10 @@ class Desk:
         asked = known if names is None else to_names(names, known)
         stop_id, is_all = f"s-{uuid.uuid4().hex[:20]}", set(asked) == set(known)
         try:
-            ended = await asyncio.to_thread(self.store.stop, stop_id, asked, forever=is_all)
-        except SQLAlchemyError:  # a stop waits for no disk
-            return await self._stop_unwritten(asked)
+            noting = asyncio.to_thread(self.store.stop, stop_id, asked, forever=is_all)
+            ended = await asyncio.wait_for(noting, NOTE_S)
+        except (SQLAlchemyError, TimeoutError):  # a stop waits for no disk
+            return await self._stop_unwritten(stop_id, asked, forever=is_all)
         acts = [asyncio.create_task(self._stop_one(name)) for name in asked]
         if acts:
             await asyncio.wait(acts, timeout=STOP_S)
@@ -213,14 +240,18 @@ class Desk:
             log.warning("stop of %s: %s", name, trouble)
         self.watches[name].nudge()  # it is repeated there until confirmed
 
-    async def _stop_unwritten(self, names: Sequence[str]) -> dict[str, Any]:
-        """Stop by the wires alone, where the database is away: then nothing repeats it."""
-        acts = {
-            name: self.watches[name].link.post("/v1/stop", {"source": SOURCE}) for name in names
-        }
+    async def _stop_unwritten(
+        self, stop_id: str, names: Sequence[str], *, forever: bool
+    ) -> dict[str, Any]:
+        """Stop by the wires alone, where the database is away; its row is owed."""
+        acts = {}
+        for name in names:
+            self.watches[name].is_ready = False  # nothing is offered before the row is there
+            acts[name] = self.watches[name].link.post("/v1/stop", {"source": SOURCE})
         done = await asyncio.gather(*acts.values(), return_exceptions=True)
         heard = [name for name, answer in zip(acts, done, strict=True) if isinstance(answer, dict)]
-        return _tell_stop("", heard, [name for name in names if name not in heard])
+        self.store.owe_stop(stop_id, names, forever=forever, heard=heard)
+        return _tell_stop(stop_id, heard, [name for name in names if name not in heard])
 
     async def answer(self, mission_id: str, text: str) -> MissionRow:
         """Pass a person's answer on to the robot that asked.
@@ -254,7 +285,8 @@ class Desk:
         mission = await asyncio.to_thread(self.store.mission, mission_id)
         if give_up and mission.robot is not None and not mission.is_over:
             watch = self.watch_of(mission.robot)
-            if watch.is_ready and mission.reason != "goal_lost":
+            answers = watch.is_ready if self.is_carrier else mission.state != UNKNOWN
+            if answers and mission.reason != "goal_lost":
                 raise FleetError("not_silent", name=mission.robot)
             wish = "cancel" if mission.is_sent else None
             ended = await asyncio.to_thread(

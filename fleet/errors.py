@@ -105,6 +105,12 @@ WORDS: dict[str, tuple[int, str, str]] = {
         "{name} 的证书与登记的不同：可能是另一台机器人，或换了证书。"
         "请与机器人上的 `pons tls` 对照，再用 --again 登记。",
     ),
+    "certificate_dates": (
+        409,
+        "By this machine's clock the certificate of {name} is not valid now: set the clock here and"
+        " there; a robot that is started again renews one that ends.",
+        "按本机时钟，{name} 的证书现在无效：请校准两边的时钟；机器人重启时会更新将到期的证书。",
+    ),
     "robot_mismatch": (
         409,
         "At the address of {name} the robot {found} answers; nothing is given to it.",
@@ -118,8 +124,9 @@ WORDS: dict[str, tuple[int, str, str]] = {
     ),
     "card_unread": (
         502,
-        "{name} has no card of what it can do (GET /v1/capabilities): update Pons there.",
-        "{name} 没有能力卡（GET /v1/capabilities）：请在那里升级 Pons。",
+        "{name} has no card of what it can do that is read here (GET /v1/capabilities): update Pons"
+        " there, or here.",
+        "{name} 没有本机能读的能力卡（GET /v1/capabilities）：请升级那里或这里的 Pons。",
     ),
     "store_unavailable": (
         503,
@@ -130,6 +137,11 @@ WORDS: dict[str, tuple[int, str, str]] = {
         429,
         "{count} orders wait already; wait until some have ended.",
         "已有 {count} 个命令在等待；请等一些结束。",
+    ),
+    "watched_elsewhere": (
+        200,
+        "Another fleet service carries the missions and watches this robot; this one stands by.",
+        "由另一个车队服务执行任务并关注此机器人；本服务待命。",
     ),
     # What a mission waits for, or why it ended without a robot's outcome.
     "robots_busy": (200, "All robots that may go are busy.", "可去的机器人都在忙。"),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 
+from fleet.card import read_card
 from fleet.errors import FleetError
 
 if TYPE_CHECKING:
@@ -20,6 +21,8 @@ TIMEOUT = httpx.Timeout(5.0, connect=2.0)
 MAX_ANSWER_BYTES = 4_000_000
 TRY_AGAIN = frozenset({408, 429, 500, 502, 503, 504})
 TOKEN_REFUSED = frozenset({401, 403})
+_BY_THE_CLOCK = frozenset({9, 10})
+"""OpenSSL's X509_V_ERR_CERT_NOT_YET_VALID and X509_V_ERR_CERT_HAS_EXPIRED."""
 
 
 class RobotAway(Exception):
@@ -71,10 +74,14 @@ class FleetLink:
 
         Raises:
             RobotAway, RobotBusy: it can't be told now.
-            RobotRefusal: ``robot_mismatch``: another robot answers here; or as of ``ask``.
+            RobotRefusal: ``robot_mismatch``: another robot answers here; ``card_unread``; or as of
+                ``ask``.
         """
-        card: dict[str, Any] = await self.get("/v1/capabilities")
-        found = str(card.get("robot_id", "?"))[:64]
+        try:
+            card = read_card(await self.get("/v1/capabilities"), self.name)
+        except FleetError as unread:
+            raise RobotRefusal(502, unread.code, unread.detail, unread.message) from None
+        found = str(card["robot_id"])
         if found != self.robot_id:
             self.is_proven = False
             wrong = FleetError("robot_mismatch", name=self.name, found=found)
@@ -96,7 +103,8 @@ class FleetLink:
         Raises:
             RobotAway: no answer, or one that is no robot's.
             RobotBusy: it may be asked again.
-            RobotRefusal: it said no, or shows another certificate (``pin_mismatch``).
+            RobotRefusal: it said no, or its certificate did not pass (``pin_mismatch``,
+                ``certificate_dates``).
         """  # fmt: skip
         headers = {"authorization": f"Bearer {self.token}"} if self.token else {}
         if key:
@@ -107,8 +115,9 @@ class FleetLink:
             )
         except httpx.HTTPError as error:
             self.is_proven = False
-            if _is_certificates(error):
-                wrong = FleetError("pin_mismatch", name=self.name)
+            if (refused := _certificates_refusal(error)) is not None:
+                dates = refused.verify_code in _BY_THE_CLOCK
+                wrong = FleetError("certificate_dates" if dates else "pin_mismatch", name=self.name)
                 raise RobotRefusal(409, wrong.code, str(error), wrong.message) from None
             raise RobotAway(f"{self.url}: {str(error) or type(error).__name__}") from None
         return self._judge(answer)
@@ -141,11 +150,11 @@ class FleetLink:
         raise RobotRefusal(answer.status_code, code, detail, told)
 
 
-def _is_certificates(error: BaseException) -> bool:
-    """Return whether a certificate was the trouble, however deep the libraries wrapped it."""
+def _certificates_refusal(error: BaseException) -> ssl.SSLCertVerificationError | None:
+    """Return why a certificate was refused, however deep the libraries wrapped it."""
     seen: BaseException | None = error
     while seen is not None:
         if isinstance(seen, ssl.SSLCertVerificationError):
-            return True
+            return seen
         seen = seen.__cause__ or seen.__context__
-    return False
+    return None

@@ -141,3 +141,18 @@ def question_of(goal: Mapping[str, Any]) -> dict[str, Any] | None:
             text = step.get("text")
             return {"text": {"en": text, "zh": text}, "kind": "ask", "options": []}
     return None
+
+
+def values_of_goal(mission: MissionRow, goal: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a goal tells of its mission. One that people ended keeps its state."""
+    asked, outcome = question_of(goal), goal.get("outcome")
+    values: dict[str, Any] = {
+        "goal_state": goal["state"],
+        "question": json.dumps(asked, ensure_ascii=False) if asked else None,
+        "outcome": json.dumps(outcome, ensure_ascii=False) if outcome else None,
+    }
+    if not mission.is_over:
+        is_last = goal["state"] in GOAL_ENDED
+        state = mission.state if is_last else state_of(goal)
+        values |= {"state": state, "reason": goal.get("reason"), "unknown_since_unix_s": None}
+    return values

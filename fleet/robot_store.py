@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 import time
 from typing import TYPE_CHECKING, Any
 
@@ -10,10 +11,13 @@ import sqlalchemy as sa
 
 from fleet.errors import FleetError
 from fleet.records import RobotRow, robot_row
-from fleet.tables import open_database, robots, stops
+from fleet.tables import counter, open_database, robots, stops
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping
+
+STOPS_S = 0.25
+"""Another service's stop is seen so much later at most."""
 
 
 class RobotStore:
@@ -21,6 +25,9 @@ class RobotStore:
 
     def __init__(self, url: str, wall: Callable[[], float] = time.time) -> None:
         self.engine, self._wall = open_database(url), wall
+        self._stops_lock = threading.Lock()
+        self._stops: dict[str, list[str]] = {}
+        self._stops_until_s, self._stops_turn = 0.0, 0
 
     def close(self) -> None:
         """Give the connections back."""
@@ -62,17 +69,36 @@ class RobotStore:
         self._write(robots.update().where(robots.c.name == name).values(card=text))
 
     def unconfirmed_stops(self, robot: str) -> list[str]:
-        """Return the stops that a robot has not confirmed."""
-        wanted = sa.select(stops.c.id).where(
-            stops.c.robot == robot, stops.c.confirmed_unix_s.is_(None)
-        )
+        """Return the stops that a robot has not confirmed.
+
+        All robots' are read at once and kept for a moment, for each watch asks twice a second; a
+        stop or a confirmation of this process is read at once.
+        """
+        with self._stops_lock:
+            turn = self._stops_turn
+            if time.monotonic() < self._stops_until_s:
+                return list(self._stops.get(robot, ()))
+        wanted = sa.select(stops.c.robot, stops.c.id).where(stops.c.confirmed_unix_s.is_(None))
+        found: dict[str, list[str]] = {}
         with self.engine.begin() as connection:
-            return list(connection.execute(wanted).scalars())
+            for row in connection.execute(wanted):
+                found.setdefault(row.robot, []).append(row.id)
+        with self._stops_lock:
+            if turn == self._stops_turn:
+                self._stops, self._stops_until_s = found, time.monotonic() + STOPS_S
+        return found.get(robot, [])
+
+    def forget_stops(self) -> None:
+        """Read the stops anew the next time: they have changed."""
+        with self._stops_lock:
+            self._stops_turn += 1
+            self._stops_until_s = 0.0
 
     def confirm_stops(self, robot: str, ids: Collection[str]) -> None:
         """Write down that a robot has confirmed these stops."""
         mine = (stops.c.robot == robot) & stops.c.id.in_(list(ids))
         self._write(stops.update().where(mine).values(confirmed_unix_s=self._wall()))
+        self.forget_stops()
 
     def stop_state(self, stop_id: str) -> tuple[list[str], list[str]]:
         """Return who has confirmed a stop, and who has not."""
@@ -81,6 +107,11 @@ class RobotStore:
             rows = connection.execute(wanted).all()
         confirmed = [row.robot for row in rows if row.confirmed_unix_s is not None]
         return confirmed, [row.robot for row in rows if row.confirmed_unix_s is None]
+
+    def newest_change(self) -> int:
+        """Return the cursor after which nothing has changed yet."""
+        with self.engine.begin() as connection:
+            return int(connection.execute(sa.select(counter.c.value)).scalar_one())
 
     def _write(self, statement: sa.Executable) -> None:
         with self.engine.begin() as connection:

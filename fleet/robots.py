@@ -7,6 +7,7 @@ import os
 from typing import TYPE_CHECKING
 
 from fleet.addressee import is_free_name
+from fleet.card import read_card
 from fleet.errors import FleetError
 from fleet.link import TOKEN_REFUSED, FleetLink, RobotAway, RobotBusy, RobotRefusal
 from fleet.pin import Pin, clean_url, take_pin
@@ -58,19 +59,18 @@ async def add_robot(
         raise FleetError("pin_mismatch", name=address)
     link = FleetLink(name or address, address, "", pin, token)
     try:
-        card = await link.get("/v1/capabilities")
+        card = read_card(await link.get("/v1/capabilities"), address)
         await _judge_role(link, token)
     except (RobotAway, RobotBusy) as silent:
         raise FleetError("robot_silent", str(silent), name=address) from None
     except RobotRefusal as refused:
         if refused.status in TOKEN_REFUSED:
             raise FleetError("token_refused", str(refused), name=address) from None
-        raise FleetError("card_unread", str(refused), name=address) from None
+        code = refused.code if refused.code == "certificate_dates" else "card_unread"
+        raise FleetError(code, str(refused), name=address) from None
     finally:
         await link.close()
-    robot_id = str(card.get("robot_id", "")) if isinstance(card, dict) else ""
-    if not robot_id:
-        raise FleetError("card_unread", name=address)
+    robot_id = str(card["robot_id"])
     called = name or robot_id
     if not is_free_name(called):
         raise FleetError("bad_name", name=called[:40])

@@ -1,17 +1,18 @@
-"""Run the fleet's service: one process a folder and a database, on the loopback or over TLS."""
+"""Run the fleet's service, on the loopback or over TLS: one process a file, or more on Postgres."""
 
 from __future__ import annotations
 
 import fcntl
 import os
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-import sqlalchemy as sa
 import uvicorn
 
 from fleet.access import LOOPBACK_NAMES, FleetAccess
 from fleet.api import build_app
+from fleet.carrier import CarrierLock
 from fleet.desk import Desk
 from fleet.pin import is_loopback
 from fleet.store import FleetStore
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 DEFAULT_PORT = 8440
-ADVISORY_LOCK = 0x504F4E53
-"""Of Postgres: one service a database."""
 
 
 def database_url(home: Path, environment: Mapping[str, str]) -> str:
@@ -65,16 +64,18 @@ def serve(
     if not is_loopback(host) and not (token and certificate and key):
         detail = f"{host} can be reached from outside; set PONS_FLEET_TOKEN and give --tls-cert"
         raise ConfigError("tls_needed", f"{detail} and --tls-key, or listen at 127.0.0.1")
-    with _lock_folder(folder / "up.lock"):
-        url = database_url(folder, environment)
+    url = database_url(folder, environment)
+    # Services on one Postgres may share a folder, which holds the tokens; a file has one service.
+    held = _lock_folder(folder / "up.lock") if url.startswith("sqlite") else nullcontext()
+    with held:
         store = FleetStore(url)
-        guard = _take_database(store)
+        lock = CarrierLock(store.engine)
         names = {name for name in environment.get("PONS_ALLOWED_HOSTS", "").split(",") if name}
         access = FleetAccess(
             frozenset({*LOOPBACK_NAMES, host, *names} - {"0.0.0.0", "::"}), token,
             environment.get("PONS_FLEET_VIEWER_TOKEN", ""), certificate is not None,
         )  # fmt: skip
-        app = build_app(Desk(store, folder), access, url)
+        app = build_app(Desk(store, folder), access, url, lock)
         try:
             uvicorn.run(
                 app, host=host, port=port, log_level="warning", access_log=False,
@@ -82,8 +83,7 @@ def serve(
                 ssl_certfile=certificate, ssl_keyfile=key,
             )  # fmt: skip
         finally:
-            if guard is not None:
-                guard.close()
+            lock.close()
             store.close()
 
 
@@ -105,20 +105,3 @@ def _lock_folder(file: Path) -> TextIO:
     opened.write(str(os.getpid()))
     opened.flush()
     return opened
-
-
-def _take_database(store: FleetStore) -> sa.Connection | None:
-    """Hold a Postgres database for this service alone; a file is held by its folder's lock.
-
-    Raises:
-        ConfigError: ``already_running``.
-    """
-    if store.engine.dialect.name == "sqlite":
-        return None
-    connection = store.engine.connect()
-    asked = sa.select(sa.func.pg_try_advisory_lock(ADVISORY_LOCK))
-    if not connection.execute(asked).scalar():
-        connection.close()
-        raise ConfigError("already_running", "another fleet service has this database")
-    connection.commit()
-    return connection

@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import json
+import time
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import sqlalchemy as sa
@@ -23,14 +25,13 @@ from fleet.records import (
     WAITING,
     MissionRow,
     mission_row,
-    question_of,
-    state_of,
+    values_of_goal,
 )
 from fleet.robot_store import RobotStore
 from fleet.tables import counter, holds, missions, orders, robots, stops
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
     from fleet.addressee import Addressee
 
@@ -40,6 +41,10 @@ _AT_WORK = (OFFERED, AT_ROBOT, ASKING, UNKNOWN)
 
 class FleetStore(RobotStore):
     """Read and write missions, holds and stops beside the robots' rows."""
+
+    def __init__(self, url: str, wall: Callable[[], float] = time.time) -> None:
+        super().__init__(url, wall)
+        self._owed: list[tuple[Any, Any]] = []
 
     # Orders ---------------------------------------------------------------------------------------
 
@@ -213,7 +218,9 @@ class FleetStore(RobotStore):
                 for mission in _select(connection, mine):
                     if mission.goal_state in GOAL_ENDED and goal["state"] not in GOAL_ENDED:
                         continue  # asked for earlier than what is known; an end is the last word
-                    self._change(connection, missions.c.id == mission.id, _of_goal(mission, goal))
+                    self._change(
+                        connection, missions.c.id == mission.id, values_of_goal(mission, goal)
+                    )
                     touched.append(mission.id)
             if cursor is not None:
                 here = robots.c.name == robot
@@ -224,7 +231,7 @@ class FleetStore(RobotStore):
         """Write down that a robot's journal has a mission, as this goal."""
         with self.engine.begin() as connection:
             mission = _select(connection, missions.c.id == mission_id)[0]
-            values = {"goal_id": goal["id"], **_of_goal(mission, goal)}
+            values = {"goal_id": goal["id"], **values_of_goal(mission, goal)}
             self._change(connection, missions.c.id == mission_id, values)
 
     def mark_lost(self, mission_id: str) -> None:
@@ -271,20 +278,26 @@ class FleetStore(RobotStore):
 
     # Stops ----------------------------------------------------------------------------------------
 
-    def stop(self, stop_id: str, names: Collection[str], *, forever: bool) -> list[str]:
+    def stop(
+        self, stop_id: str, names: Collection[str], *, forever: bool, heard: Collection[str] = ()
+    ) -> list[str]:
         """Note a stop to be confirmed by these, and bar what was ordered before; return what ended.
 
         Args:
-            stop_id: of the stop.
+            stop_id: of the stop; one that is noted is left as it is.
             names: of the robots.
             forever: whether these are all: what waits for anyone then ends too.
+            heard: who has confirmed it already.
         """
         with self.engine.begin() as connection:
+            if connection.execute(sa.select(stops).where(stops.c.id == stop_id)).first():
+                return []
             now = self._wall()
             newest = connection.execute(sa.select(sa.func.max(missions.c.seq))).scalar() or 0
             for name in names:
                 row = {"id": stop_id, "robot": name, "asked_unix_s": now}
-                connection.execute(stops.insert().values(**row))
+                at = now if name in heard else None
+                connection.execute(stops.insert().values(**row, confirmed_unix_s=at))
             mine = robots.c.name.in_(list(names))
             connection.execute(robots.update().where(mine).values(stopped_seq=newest))
             ended = []
@@ -294,15 +307,27 @@ class FleetStore(RobotStore):
                     values = {"state": CANCELLED, "reason": "stopped_first"}
                     self._change(connection, missions.c.id == mission.id, values)
                     ended.append(mission.id)
-            return ended
+        self.forget_stops()
+        return ended
+
+    def owe_stop(self, *stop: Any, **more: Any) -> None:
+        """Keep a stop that the database did not take; it is noted before anything is offered."""
+        self._owed.append((stop, more))
+
+    def unconfirmed_stops(self, robot: str) -> list[str]:
+        """Return the stops that a robot has not confirmed, those of a database away included."""
+        while self._owed:
+            stop, more = self._owed[0]
+            self.stop(*stop, **more)
+            with suppress(ValueError):  # another thread was as quick
+                self._owed.remove((stop, more))
+        return super().unconfirmed_stops(robot)
 
     # ----------------------------------------------------------------------------------------------
 
-    def _find(
-        self, condition: sa.ColumnElement[bool], limit: int | None = None
-    ) -> list[MissionRow]:
+    def _find(self, condition: sa.ColumnElement[bool]) -> list[MissionRow]:
         with self.engine.begin() as connection:
-            return _select(connection, condition, limit)
+            return _select(connection, condition)
 
     def _change(
         self, connection: sa.Connection, condition: sa.ColumnElement[bool], values: dict[str, Any]
@@ -318,23 +343,6 @@ class FleetStore(RobotStore):
         return int(connection.execute(sa.select(counter.c.value)).scalar_one())
 
 
-def _select(
-    connection: sa.Connection, condition: sa.ColumnElement[bool], limit: int | None = None
-) -> list[MissionRow]:
-    wanted = sa.select(missions).where(condition).order_by(missions.c.seq).limit(limit)
+def _select(connection: sa.Connection, condition: sa.ColumnElement[bool]) -> list[MissionRow]:
+    wanted = sa.select(missions).where(condition).order_by(missions.c.seq)
     return [mission_row(row) for row in connection.execute(wanted).mappings()]
-
-
-def _of_goal(mission: MissionRow, goal: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a goal tells of its mission. One that people ended keeps its state."""
-    asked, outcome = question_of(goal), goal.get("outcome")
-    values: dict[str, Any] = {
-        "goal_state": goal["state"],
-        "question": json.dumps(asked, ensure_ascii=False) if asked else None,
-        "outcome": json.dumps(outcome, ensure_ascii=False) if outcome else None,
-    }
-    if not mission.is_over:
-        is_last = goal["state"] in GOAL_ENDED
-        state = mission.state if is_last else state_of(goal)
-        values |= {"state": state, "reason": goal.get("reason"), "unknown_since_unix_s": None}
-    return values

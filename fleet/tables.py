@@ -5,6 +5,8 @@ from __future__ import annotations
 import sqlalchemy as sa
 from sqlalchemy import event
 
+from fleet.schema import bring_up
+
 metadata = sa.MetaData()
 
 robots = sa.Table(
@@ -83,18 +85,25 @@ change that is read has none before it that is yet to come."""
 
 
 def open_database(url: str) -> sa.Engine:
-    """Return the connections, with all tables made."""
+    """Return the connections, with all tables made. Raises as ``bring_up``."""
     made = sa.make_url(url)
     if made.get_backend_name() == "sqlite":
         engine = sa.create_engine(made, connect_args={"timeout": 30.0})
         event.listen(engine, "connect", _prepare_sqlite)
         event.listen(engine, "begin", _begin_writing)
     else:
-        engine = sa.create_engine(made.set(drivername="postgresql+psycopg"), pool_pre_ping=True)
-    with engine.begin() as connection:
-        metadata.create_all(connection)
-        if connection.execute(sa.select(counter.c.value)).scalar() is None:
-            connection.execute(counter.insert().values(id=1, value=0))
+        engine = sa.create_engine(
+            made.set(drivername="postgresql+psycopg"), pool_pre_ping=True, pool_size=20,
+            connect_args={"connect_timeout": 5, "tcp_user_timeout": 10_000},
+        )  # fmt: skip
+    try:
+        with engine.begin() as connection:
+            bring_up(connection, metadata)
+            if connection.execute(sa.select(counter.c.value)).scalar() is None:
+                connection.execute(counter.insert().values(id=1, value=0))
+    except BaseException:
+        engine.dispose()
+        raise
     return engine
 
 

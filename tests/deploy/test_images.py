@@ -75,14 +75,14 @@ def test_no_service_says_what_compose_does_not_know() -> None:
         assert service["profiles"], name
         assert "privileged" not in service
         for mount in service["volumes"]:
-            assert re.fullmatch(r"(state|\$\{\w+:-\./[\w./]+\}):/[\w/.]+(:ro)?", mount), mount
+            assert re.fullmatch(r"(state|fleet|\$\{\w+:-\./[\w./]+\}):/[\w/.]+(:ro)?", mount), mount
 
 
 def test_profiles_hold_whole_robots() -> None:
     described = compose()["services"]
     members = {
         profile: {name for name, one in described.items() if profile in one["profiles"]}
-        for profile in ("sim", "robot", "lidar", "camera", "ros2", "llm")
+        for profile in ("sim", "robot", "lidar", "camera", "ros2", "llm", "fleet")
     }
     assert members == {
         "sim": set(PROCESSES),
@@ -91,6 +91,7 @@ def test_profiles_hold_whole_robots() -> None:
         "camera": {"robot-camera"},
         "ros2": {"robot-ros2"},
         "llm": {"llm"},
+        "fleet": {"fleet"},
     }
 
 
@@ -101,6 +102,8 @@ def test_without_a_profile_the_simulator_starts() -> None:
 
 def test_processes_share_their_sockets_and_only_the_planner_has_a_network() -> None:
     for name, service in compose()["services"].items():
+        if name == "fleet":
+            continue
         assert "state:/var/lib/pons" in service["volumes"], name
         expected = {"llm": "service:planner"} | dict.fromkeys(
             ("planner", "robot-planner", "robot-ros2"), "bridge"
@@ -108,6 +111,17 @@ def test_processes_share_their_sockets_and_only_the_planner_has_a_network() -> N
         assert service["network_mode"] == expected.get(name, "none"), name
         if "ports" in service:
             assert all(port.startswith("127.0.0.1:") for port in service["ports"])
+
+
+def test_the_fleet_shares_nothing_with_a_robot_and_has_its_engine() -> None:
+    service = compose()["services"]["fleet"]
+    assert service["volumes"] == ["fleet:/var/lib/pons"]
+    assert service["network_mode"] == "host", "it serves the host's loopback, and reaches robots"
+    assert service["command"] == ["pons", "fleet", "up"]
+    assert service["build"]["args"] == {"EXTRAS": "extras"}
+    assert service["image"] != compose()["services"]["planner"]["image"]
+    runs = " ".join(words for word, words in instructions() if word == "RUN")
+    assert "make setup ${EXTRAS}" in runs
 
 
 def test_only_the_robots_bridge_may_be_real_time() -> None:
@@ -168,6 +182,7 @@ def compose_command() -> list[str]:
         (("robot",), METAL),
         (("robot", "lidar", "camera"), {*METAL, "robot-lidar", "robot-camera"}),
         (("sim", "llm"), {*PROCESSES, "llm"}),
+        (("fleet",), {"fleet"}),
     ],
 )
 def test_compose_itself_takes_the_file(

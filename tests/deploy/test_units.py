@@ -143,6 +143,24 @@ def test_the_service_of_a_ros2_base_is_hardened_as_one_that_has_no_devices() -> 
     assert ros2["Install"]["WantedBy"] == ["pons.target"]
 
 
+def test_the_fleets_service_is_hardened_as_the_planner_and_of_no_group_of_a_robots() -> None:
+    fleet, planner = unit(UNITS / "pons-fleet.service")["Service"], services()["planner"]["Service"]
+    hardening = {
+        name: value
+        for name, value in planner.items()
+        if name.startswith(("Protect", "Private", "Rest", "NoNew", "Capability", "Lock", "System"))
+    }
+    assert {name: fleet.get(name) for name in hardening} == hardening
+    assert "RestartPreventExitStatus" in hardening
+    assert (fleet["User"], fleet["Group"]) == (["pons-fleet"], ["pons-fleet"])
+    known = (UNITS / "pons.sysusers.conf").read_text()
+    assert "u pons-fleet " in known
+    assert "m pons-fleet" not in known
+    assert fleet["StateDirectory"] == ["pons-fleet"]
+    assert "ReadWritePaths" not in fleet
+    assert fleet["ExecStart"] == ["/opt/pons/.venv/bin/python -m fleet up"]
+
+
 def test_neither_user_can_replace_what_the_other_made() -> None:
     made = folders()
     assert made["/var/lib/pons"] == ("3770", "root", "pons")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+import socket
 import subprocess
 import sys
 import zipfile
@@ -13,7 +15,9 @@ import fastapi
 import numpy as np
 import pytest
 
+from pons.robot_processes import free_port
 from scripts.wheel import build_wheel
+from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import HOME_SITE, ROOT, System, new_home
 
@@ -143,3 +147,35 @@ def test_what_needs_a_checkout_says_so(installed: InstalledSystem) -> None:
         assert asked.returncode == 1
         assert asked.stderr.startswith("needs_checkout: "), asked.stderr
         assert not list(installed.folder.iterdir())
+
+
+def test_the_fleet_serves_from_the_wheel(wheel: Path, installed: InstalledSystem) -> None:
+    metadata = zipfile.ZipFile(wheel)
+    (name,) = (each for each in metadata.namelist() if each.endswith(".dist-info/METADATA"))
+    assert b"Provides-Extra: fleet" in metadata.read(name)
+    port = free_port()
+    environment = {**installed.environment, "PONS_FLEET_PORT": str(port)}
+    environment.pop("PONS_FLEET_DB", None)
+    service = subprocess.Popen(
+        [str(installed.python), "-m", "pons", "fleet", "up"],
+        cwd=installed.folder, env=environment, start_new_session=True,
+    )  # fmt: skip
+    try:
+        until(lambda: is_answering(port), 60.0, "the fleet")
+        listed = subprocess.run(
+            [str(installed.python), "-m", "pons", "fleet", "say", "everybody go home"],
+            cwd=installed.folder, env=environment, capture_output=True, text=True, check=False,
+            timeout=60,
+        )  # fmt: skip
+        assert listed.returncode == 3, listed
+        assert "no_robots" in listed.stderr
+        assert (installed.home / "fleet" / "fleet.sqlite").is_file()
+    finally:
+        service.terminate()
+        service.wait(30)
+    assert service.returncode in (0, -signal.SIGTERM)
+
+
+def is_answering(port: int) -> bool:
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0

@@ -5,23 +5,22 @@ from __future__ import annotations
 import asyncio
 import json
 import os
-import pwd
-import shutil
 import socket
+import sqlite3
 import subprocess
 import sys
-import tempfile
 import time
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import httpx
 import pytest
-import sqlalchemy as sa
 
 from fleet.robots import add_robot
 from fleet.service import own_home
 from fleet.store import FleetStore
+from tests.fleet.postgres import Cluster, running_cluster
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -72,6 +71,18 @@ class StubRobot:
         if self.process.stdout is not None:
             self.process.stdout.close()
 
+    def goals(self) -> list[tuple[str, str]]:
+        """Return the text and state of each goal on its disk."""
+        return self._read("SELECT text, state FROM goals")
+
+    def acts(self, act: str) -> int:
+        """Return how often its journal notes an act: begun, stop."""
+        return len(self._read("SELECT seq FROM acts WHERE act=?", act))
+
+    def _read(self, query: str, *values: str) -> list[Any]:
+        with closing(sqlite3.connect(self.journal)) as disk:
+            return disk.execute(query, values).fetchall()
+
     def rule(self, **rules: Any) -> None:
         """Change how it behaves; a kill forgets it."""
         httpx.post(f"{self.url}/stub", json=rules, trust_env=False).raise_for_status()
@@ -115,9 +126,10 @@ class RunningFleet:
         self.process = subprocess.Popen(
             [sys.executable, "-c", code], cwd=ROOT, env=self.environment
         )
-        until(self._answers)
+        until(self.answers)
 
-    def _answers(self) -> bool:
+    def answers(self) -> bool:
+        """Return whether it serves."""
         try:
             return bool(self.client.get("/healthz").is_success)
         except httpx.HTTPError:
@@ -185,41 +197,10 @@ def make_robot(tmp_path: Path) -> Iterator[Callable[[str], StubRobot]]:
 
 
 @pytest.fixture(scope="session")
-def postgres() -> Iterator[str]:
-    """Return the URL of a cluster of our own, on a socket, run by a user without rights."""
-    folders = sorted(Path("/usr/lib/postgresql").glob("*/bin"))
-    tools = folders[-1] if folders else None
-    if tools is None or not (tools / "initdb").exists():
-        pytest.skip("no initdb and pg_ctl here: Postgres is not tried")
-    place = Path(tempfile.mkdtemp(prefix="pg-", dir="/tmp"))  # names of sockets are short
-    user = pwd.getpwnam("nobody") if os.geteuid() == 0 else pwd.getpwuid(os.geteuid())
-    os.chown(place, user.pw_uid, user.pw_gid)
-
-    def run(*words: str) -> None:
-        subprocess.run(
-            words, check=True, capture_output=True, cwd=place, user=user.pw_uid,
-            group=user.pw_gid, env={"PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8"}, timeout=120,
-        )  # fmt: skip
-
-    data = place / "data"
-    run(str(tools / "initdb"), "-D", str(data), "-U", "fleet", "-A", "trust", "-N")
-    options = f"-k {place} -c listen_addresses= -c fsync=off"
-    run(
-        str(tools / "pg_ctl"),
-        "-D",
-        str(data),
-        "-l",
-        str(place / "log"),
-        "-w",
-        "-o",
-        options,
-        "start",
-    )
-    try:
-        yield f"postgresql://fleet@/postgres?host={place}"
-    finally:
-        run(str(tools / "pg_ctl"), "-D", str(data), "-m", "immediate", "-w", "stop")
-        shutil.rmtree(place, ignore_errors=True)
+def postgres() -> Iterator[Cluster]:
+    """Return a cluster of our own, for databases of tests that leave it running."""
+    with running_cluster() as cluster:
+        yield cluster
 
 
 @pytest.fixture(scope="module")
@@ -239,14 +220,8 @@ def own_fleet(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Runnin
     if request.param == "sqlite":
         database = f"sqlite:///{tmp_path / 'fleet.sqlite'}"
     else:
-        server = request.getfixturevalue("postgres")
-        url = sa.make_url(server).set(drivername="postgresql+psycopg")
-        engine = sa.create_engine(url, isolation_level="AUTOCOMMIT")
-        name = f"fleet_{os.getpid()}_{time.monotonic_ns()}"
-        with engine.connect() as connection:
-            connection.execute(sa.text(f"CREATE DATABASE {name}"))
-        engine.dispose()
-        database = server.replace("/postgres?", f"/{name}?")
+        cluster: Cluster = request.getfixturevalue("postgres")
+        database = cluster.make_database()
     running = RunningFleet(tmp_path / "home", database)
     yield running
     running.kill()

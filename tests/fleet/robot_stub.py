@@ -40,6 +40,7 @@ class Journal:
         self.rules: dict[str, Any] = {
             "work_s": 0.05, "lose_answers": 0, "ask": False, "token": "", "id": name,
             "length_m": 5.0, "refuse": None, "role": "dispatcher", "places": ["kitchen", "hall"],
+            "resume": False, "map_id": MAP, "card": {},
         }  # fmt: skip
         self.disk = sqlite3.connect(
             folder / f"{name}.journal", check_same_thread=False, isolation_level=None
@@ -60,7 +61,9 @@ class Journal:
             if row is not None:
                 return 202, self.goal(row[1])
         goal_id = uuid.uuid4().hex
-        is_of_other_map = "points" in body and body["map_id"] != MAP
+        points = [step for step in body.get("steps") or () if step["kind"] == "go_to_pose"]
+        maps = {body["map_id"]} if "points" in body else {step["map_id"] for step in points}
+        is_of_other_map = not maps <= {self.rules["map_id"]}
         state = "refused" if is_of_other_map else "queued"
         text = body.get("text") or json.dumps(body.get("steps") or body.get("points"))
         record = {"id": goal_id, "text": text, "state": state, "reason": None, "plan": None,
@@ -113,6 +116,8 @@ class Journal:
                 began = self.since.setdefault(goal_id, time.monotonic())
                 if time.monotonic() - began >= self.rules["work_s"]:
                     self.move(goal_id, "succeeded")
+            elif state == "paused" and self.rules["resume"]:
+                self.move(goal_id, "running", answered=True)
 
     def changes(self, after: int, limit: int) -> dict[str, Any]:
         rows = self.disk.execute(
@@ -212,7 +217,8 @@ class Door(BaseHTTPRequestHandler):
                 places = [{"id": name, "name": {"en": name}, "pose": {"x_m": 1.0, "y_m": 0.0}}
                           for name in rules["places"]]  # fmt: skip
                 return 200, {"robot_id": rules["id"], "release": "0.1", "site": "home",
-                             "map_id": MAP, "places": places, "camera": None}  # fmt: skip
+                             "map_id": rules["map_id"], "places": places, "camera": None,
+                             **rules["card"]}  # fmt: skip
             case ["v1", "people"]:
                 return 200, {"you": {"id": "fleet", "role": rules["role"]}}
             case ["v1", "robot"]:

@@ -1,0 +1,140 @@
+"""Measure the service beside 30 robots' doors: ``python -m tests.fleet.measure [--orders 10000]``.
+
+Prints its share of a core and memory at rest, how long it takes to accept orders at 5 a second, and
+what a flood does to both. The doors are real servers in one process of their own. Run it alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import httpx
+import psutil
+
+from fleet.robots import add_robot
+from fleet.service import own_home
+from fleet.store import FleetStore
+from tests.fleet.conftest import ROOT, RunningFleet, until
+from tests.fleet.robot_stub import make_server
+
+ROBOTS = 30
+REST_S, STEADY_S = 30.0, 40.0
+STEADY_HZ = 5.0
+
+
+def serve_doors(folder: Path) -> None:
+    """Be the process of all doors; their ports are printed in one line."""
+    servers = [make_server(folder, f"r{number}", 0) for number in range(1, ROBOTS + 1)]
+    for server in servers:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+    print(*(server.server_address[1] for server in servers), flush=True)
+    sys.stdin.read()
+
+
+def share_of_core(process: psutil.Process, seconds: float) -> float:
+    """Return which share of one core a process takes."""
+    before = sum(process.cpu_times()[:2])
+    time.sleep(seconds)
+    return (sum(process.cpu_times()[:2]) - before) / seconds
+
+
+def megabytes(process: psutil.Process) -> float:
+    return process.memory_info().rss / 1e6
+
+
+def describe(times_s: list[float]) -> str:
+    """Return median, 99th percentile and the worst, in milliseconds."""
+    cuts = statistics.quantiles(times_s, n=100)
+    return f"p50 {1e3 * cuts[49]:.1f}  p99 {1e3 * cuts[98]:.1f}  max {1e3 * max(times_s):.1f} ms"
+
+
+def give(fleet: RunningFleet, text: str) -> tuple[float, int]:
+    began_s = time.monotonic()
+    try:
+        status = fleet.client.post("/v1/missions", json={"text": text}).status_code
+    except httpx.HTTPError:
+        status = 0
+    return time.monotonic() - began_s, status
+
+
+def report(fleet: RunningFleet, orders: int) -> None:
+    """Measure and print."""
+    assert fleet.process is not None
+    service = psutil.Process(fleet.process.pid)
+    until(lambda: list(fleet.states().values()).count("ready") == ROBOTS)
+    time.sleep(5.0)
+    rest = share_of_core(service, REST_S)
+    print(f"at rest, {ROBOTS} robots: {100 * rest:.1f} % of a core, {megabytes(service):.0f} MB")
+    steady: list[float] = []
+    busy = sum(service.cpu_times()[:2])
+    for number in range(int(STEADY_S * STEADY_HZ)):
+        taken_s, status = give(fleet, f"somebody go to the hall {number}")
+        assert status == 202, status
+        steady.append(taken_s)
+        time.sleep(max(0.0, 1.0 / STEADY_HZ - taken_s))
+    busy = (sum(service.cpu_times()[:2]) - busy) / STEADY_S
+    print(f"accepted at {STEADY_HZ:g}/s: {describe(steady)}  n {len(steady)}, {100 * busy:.1f} %"
+          f" of a core, {megabytes(service):.0f} MB")  # fmt: skip
+    began_s = time.monotonic()
+    with ThreadPoolExecutor(16) as many:
+        flood = list(many.map(lambda number: give(fleet, f"r1: go to the hall {number}"),
+                              range(orders)))  # fmt: skip
+    rate = orders / (time.monotonic() - began_s)
+    taken = sum(status == 202 for _, status in flood)
+    times_s = [taken_s for taken_s, _ in flood]
+    print(f"{orders} at once by 16: {taken} accepted, {rate:.0f}/s, {describe(times_s)},"
+          f" {megabytes(service):.0f} MB")  # fmt: skip
+    began_s = time.monotonic()
+    told = fleet.client.post("/v1/stop").json()
+    print(f"stop all in the flood: {len(told['confirmed'])} confirmed,"
+          f" {1e3 * (time.monotonic() - began_s):.0f} ms")  # fmt: skip
+
+
+def main() -> None:
+    """Run the doors, the service and the measurement in a folder of its own."""
+    parser = argparse.ArgumentParser(prog="python -m tests.fleet.measure", description=__doc__)
+    parser.add_argument("--orders", type=int, default=10_000, help="in the flood")
+    parser.add_argument("--doors", type=Path, help=argparse.SUPPRESS)
+    given = parser.parse_args()
+    if given.doors is not None:
+        serve_doors(given.doors)
+        return
+    print(f"load {os.getloadavg()[0]:.1f}")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        words = [sys.executable, "-m", "tests.fleet.measure", "--doors", name]
+        doors = subprocess.Popen(words, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        fleet = RunningFleet(folder / "home", f"sqlite:///{folder / 'fleet.sqlite'}")
+        fleet.client.timeout = httpx.Timeout(120.0)
+        try:
+            assert doors.stdout is not None
+            add_all(fleet, doors.stdout.readline().split())
+            fleet.start()
+            report(fleet, given.orders)
+        finally:
+            fleet.kill()
+            doors.kill()
+            doors.communicate()
+
+
+def add_all(fleet: RunningFleet, ports: list[bytes]) -> None:
+    """Add each door as a robot."""
+    store, home = FleetStore(fleet.database), own_home(fleet.home)
+    for number, port in enumerate(ports, 1):
+        url = f"http://127.0.0.1:{int(port)}"
+        asyncio.run(add_robot(store, home, url, "", f"r{number}"))
+    store.close()
+
+
+if __name__ == "__main__":
+    main()

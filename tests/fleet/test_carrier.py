@@ -1,0 +1,180 @@
+"""Tell what two services on one Postgres do when either of them falls, freezes or comes back."""
+
+from __future__ import annotations
+
+import signal
+from typing import TYPE_CHECKING
+
+import pytest
+
+from fleet.carrier import CarrierLock
+from fleet.store import FleetStore
+from tests.fleet.conftest import RunningFleet, until
+from tests.fleet.judge import judge
+from tests.fleet.postgres import running_cluster
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from tests.fleet.conftest import StubRobot
+    from tests.fleet.postgres import Cluster
+
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+
+Pair = tuple[RunningFleet, RunningFleet]
+
+
+def carries(service: RunningFleet) -> bool:
+    return bool(service.client.get("/healthz").json()["carries"])
+
+
+@pytest.fixture
+def pair(postgres: Cluster, tmp_path: Path) -> Iterator[Pair]:
+    """Return two services on one database and one folder, not yet started."""
+    database = postgres.make_database()
+    made = (RunningFleet(tmp_path / "home", database), RunningFleet(tmp_path / "home", database))
+    yield made
+    for service in made:
+        service.kill()
+        service.client.close()
+
+
+def start(pair: Pair, *settings: str) -> Pair:
+    """Start both and return the carrier and the one that stands by."""
+    for service in pair:
+        service.start(*settings)
+    first, second = pair
+    assert (carries(first), carries(second)) == (True, False)
+    return pair
+
+
+def test_one_lock_has_one_holder_and_a_file_is_held_by_whoever_opens_it(
+    postgres: Cluster, tmp_path: Path
+) -> None:
+    store = FleetStore(postgres.make_database())
+    first, second = CarrierLock(store.engine), CarrierLock(store.engine)
+    assert [first.take(), first.take(), second.take()] == [True, True, False]
+    first.close()
+    assert second.take()
+    second.close()
+    store.close()
+    file = FleetStore(f"sqlite:///{tmp_path / 'fleet.sqlite'}")
+    assert CarrierLock(file.engine).take()
+    file.close()
+
+
+@pytest.mark.parametrize("falls", ["carrier", "standby"])
+def test_either_falls_in_mid_mission_and_the_other_goes_on(
+    pair: Pair, make_robot: Callable[[str], StubRobot], falls: str
+) -> None:
+    robots = [make_robot(f"r{number}") for number in (1, 2, 3)]
+    pair[0].add(*robots)
+    carrier, standby = start(pair)
+    for robot in robots:
+        robot.rule(work_s=600.0, lose_answers=1)
+    carrier.await_ready(*robots)
+    accepted = [mission["id"] for mission in carrier.give("everybody go home")]
+    for service in (carrier, standby) * 3:  # both accept, whoever carries
+        accepted += [mission["id"] for mission in service.give("go to the hall")]
+    for robot in robots:
+        until(robot.goals)
+    fallen, left = (carrier, standby) if falls == "carrier" else (standby, carrier)
+    fallen.kill()
+    accepted += [mission["id"] for mission in left.give("go to the kitchen")]
+    until(lambda: carries(left))
+    for robot in robots:
+        robot.rule(work_s=0.0)
+    fallen.start()  # it comes back, and stands by
+    assert not carries(fallen)
+    for mission_id in accepted:
+        assert fallen.await_state(mission_id, "succeeded")
+    verdict = judge(accepted, [robot.journal for robot in robots], left.database)
+    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+
+
+def test_who_stands_by_stops_cancels_and_answers_for_people(
+    pair: Pair, make_robot: Callable[[str], StubRobot]
+) -> None:
+    robots = [make_robot("r1"), make_robot("r2")]
+    pair[0].add(*robots)
+    carrier, standby = start(pair)
+    robots[0].rule(work_s=600.0)
+    robots[1].rule(ask=True)
+    carrier.await_ready(*robots)
+    (long,), (asker,) = standby.give("r1: go to the hall"), standby.give("r2: look at the door")
+    standby.await_state(asker["id"], "asking")
+    path = f"/v1/missions/{asker['id']}/answer"
+    assert standby.client.post(path, json={"text": "the back one"}).is_success
+    standby.await_state(asker["id"], "succeeded")
+    standby.await_state(long["id"], "at_robot")
+    cancel = f"/v1/missions/{long['id']}/cancel"
+    refused = standby.client.post(cancel, json={"give_up": True})
+    assert refused.json()["code"] == "not_silent"
+    standby.client.post(cancel, json={}).raise_for_status()
+    standby.await_state(long["id"], "cancelled")
+    told = standby.client.post("/v1/stop").json()
+    assert (sorted(told["confirmed"]), told["not_reached"]) == (["r1", "r2"], [])
+    robots[1].kill()
+    told = standby.client.post("/v1/stop").json()
+    assert told["message"]["en"] == "1 of 2 confirmed, r2 not reached"
+    robots[1].start()  # the carrier repeats what the other one noted
+    until(lambda: not carrier.client.get(f"/v1/stop/{told['id']}").json()["not_reached"])
+
+
+def test_a_carrier_that_froze_stands_by_when_it_wakes(
+    pair: Pair, make_robot: Callable[[str], StubRobot]
+) -> None:
+    robot = make_robot("r1")
+    pair[0].add(robot)
+    carrier, standby = start(pair, "import fleet.carrier; fleet.carrier.FROZEN_S = 3")
+    robot.rule(work_s=600.0)
+    carrier.await_ready(robot)
+    (mission,) = carrier.give("go to the hall")
+    carrier.await_state(mission["id"], "at_robot")
+    assert carrier.process is not None
+    carrier.process.send_signal(signal.SIGSTOP)
+    try:
+        until(lambda: carries(standby))
+    finally:
+        carrier.process.send_signal(signal.SIGCONT)
+    until(lambda: carrier.answers() and not carries(carrier))
+    robot.rule(work_s=0.0)
+    carrier.await_state(mission["id"], "succeeded")
+    verdict = judge([mission["id"]], [robot.journal], carrier.database)
+    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+
+
+def test_postgres_away_refuses_orders_with_a_code_stops_robots_and_goes_on_when_it_is_back(
+    tmp_path: Path, make_robot: Callable[[str], StubRobot]
+) -> None:
+    with running_cluster() as cluster:
+        fleet, robot = RunningFleet(tmp_path / "home", cluster.make_database()), make_robot("r1")
+        try:
+            fleet.add(robot)
+            fleet.start()
+            robot.rule(work_s=600.0)
+            fleet.await_ready(robot)
+            (mission,) = fleet.give("go to the hall")
+            fleet.await_state(mission["id"], "at_robot")
+            (waiting,) = fleet.give("go to the kitchen")
+            cluster.stop()
+            refused = fleet.client.post("/v1/missions", json={"text": "go to the hall"})
+            assert (refused.status_code, refused.json()["code"]) == (503, "store_unavailable")
+            told = fleet.client.post("/v1/stop").json()
+            assert told["confirmed"] == ["r1"]
+            assert robot.acts("stop") == 1
+            cluster.start()
+            fleet.await_state(waiting["id"], "cancelled")  # what was ordered before the stop
+            assert fleet.client.get(f"/v1/stop/{told['id']}").json()["confirmed"] == ["r1"]
+            robot.rule(work_s=0.0, resume=True)
+            fleet.await_state(mission["id"], "succeeded")
+            assert (carries(fleet), robot.acts("stop")) == (True, 1)
+            (after,) = fleet.give("go to the kitchen")
+            fleet.await_state(after["id"], "succeeded")
+            ids = [mission["id"], after["id"]]
+            verdict = judge(ids, [robot.journal], fleet.database)
+            assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+        finally:
+            fleet.kill()
+            fleet.client.close()
