@@ -7,17 +7,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from fastapi import FastAPI, Header, Query
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
+from pydantic import Field, StrictBool, model_validator
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 
 from fleet.access import AccessDoor, problem
 from fleet.addressee import Addressee, to_names
 from fleet.errors import FleetError, tell
+from fleet.house_api import FleetBody, house_routes
 from fleet.records import MissionRow, show_mission
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
+    from collections.abc import AsyncIterator, Callable
 
     from fastapi import Request
     from starlette.responses import Response
@@ -32,12 +33,6 @@ Key = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_le
 Cursor = Annotated[int | None, Query(ge=0, le=2**53)]
 Limit = Annotated[int, Query(ge=1, le=200)]
 Names = Annotated[tuple[str, ...], Field(min_length=1, max_length=1_000)]
-
-
-class FleetBody(BaseModel):
-    """Refuse unknown fields: a misspelt option must not be ignored."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class NewMission(FleetBody):
@@ -106,6 +101,7 @@ def build_app(desk: Desk, access: FleetAccess, url: str) -> ASGIApp:
         app.add_exception_handler(kind, _refuse)
     _robots(app, desk)
     _missions(app, desk)
+    app.include_router(house_routes(desk, mission_view(desk)))
     return AccessDoor(app, access)
 
 
@@ -132,11 +128,7 @@ def _robots(app: FastAPI, desk: Desk) -> None:
 
 
 def _missions(app: FastAPI, desk: Desk) -> None:
-    def view(mission: MissionRow) -> dict[str, Any]:
-        shown = show_mission(mission)
-        if (waits_for := desk.dispatcher.waits_for(mission)) is not None:
-            shown["reason"], shown["message"] = waits_for, tell(waits_for)
-        return shown
+    view = mission_view(desk)
 
     @app.post("/v1/missions", status_code=202, operation_id="give_mission")
     async def give(new: NewMission, idempotency_key: Key = None) -> dict[str, Any]:
@@ -177,6 +169,18 @@ def _missions(app: FastAPI, desk: Desk) -> None:
         """End a mission; its robot is told until it confirms."""
         asked = how or MissionCancel()
         return view(await desk.cancel(mission_id, give_up=asked.give_up))
+
+
+def mission_view(desk: Desk) -> Callable[[MissionRow], dict[str, Any]]:
+    """Return how a mission is shown: with what it waits for, and who could take it instead."""
+
+    def view(mission: MissionRow) -> dict[str, Any]:
+        shown = show_mission(mission)
+        if (waits_for := desk.dispatcher.waits_for(mission)) is not None:
+            shown["reason"], shown["message"] = waits_for, tell(waits_for)
+        return {**shown, "instead": desk.dispatcher.instead_of(mission)}
+
+    return view
 
 
 async def _refuse(_: Request, error: Exception) -> Response:

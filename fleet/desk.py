@@ -18,11 +18,13 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from fleet import workflow
 from fleet.addressee import STOPS, Addressee, is_stop, read_addressee, to_names
-from fleet.dispatch import Dispatcher
+from fleet.charging import look_after_batteries
+from fleet.dispatch import Dispatcher, robots_meant
 from fleet.errors import FleetError
 from fleet.link import RobotAway, RobotBusy, RobotRefusal
-from fleet.records import ASKING, GIVEN_UP, MissionRow, RobotRow
+from fleet.records import ASKING, GIVEN_UP, WAITING, MissionRow, RobotRow
 from fleet.robots import link_of
+from fleet.standing import keep_time
 from fleet.watch import SOURCE, STOP_S, RobotWatch, show_robot
 
 if TYPE_CHECKING:
@@ -35,6 +37,8 @@ log = logging.getLogger(__name__)
 
 ROBOTS_S = 2.0
 """So often robots are looked for that ``pons fleet add`` has added."""
+PROOF_NEEDED = frozenset({"operator_proof_needed", "person_needed", "operator_needed"})
+"""Of a robot of metal: its operator's key alone clears what a stop has held."""
 _CHINESE = re.compile(r"[\u4e00-\u9fff]")
 
 
@@ -60,7 +64,8 @@ class Desk:
         await self._take_up_robots()
         workflow.launch(self, url)
         for name, loop in (("dispatch", self.dispatcher.run()), ("robots", self._look_for_robots()),
-                           ("sweep", workflow.sweep(self))):  # fmt: skip
+                           ("sweep", workflow.sweep(self)), ("standing", keep_time(self)),
+                           ("charging", look_after_batteries(self))):  # fmt: skip
             self._tasks[f" {name}"] = asyncio.create_task(loop)
 
     async def close(self) -> None:
@@ -141,6 +146,7 @@ class Desk:
         key: str | None,
         *,
         confirm: bool = False,
+        order_id: str | None = None,
     ) -> list[MissionRow]:
         """Accept an order: on return its missions are written down.
 
@@ -161,7 +167,7 @@ class Desk:
         language = "zh" if _CHINESE.search(order) else "en"
         body: dict[str, Any] = {"language": language, "source": SOURCE, "confirm": confirm}
         body |= {"text": order} if steps is None else {"steps": steps}
-        order_id = f"o-{uuid.uuid4().hex[:20]}"
+        order_id = order_id or f"o-{uuid.uuid4().hex[:20]}"
         is_urgent = steps is None and STOPS.search(order) is not None
         wanted = [(f"m-{uuid.uuid4().hex}", who, body, is_urgent) for who in whom]
         asked = json.dumps(
@@ -223,25 +229,72 @@ class Desk:
         return _tell_stop("", heard, [name for name in names if name not in heard])
 
     async def answer(self, mission_id: str, text: str) -> MissionRow:
-        """Pass a person's answer on to the robot that asked.
+        """Pass a person's answer on to the robot that asked, or take it where the fleet asks.
 
         Raises:
-            FleetError: ``unknown_mission``, ``not_asking``, ``robot_silent`` or ``robot_refused``.
+            FleetError: ``unknown_mission``, ``not_asking``, ``robot_silent``, ``robot_refused`` or
+                ``which_home``.
         """
         mission = await asyncio.to_thread(self.store.mission, mission_id)
+        if mission.state == WAITING and mission.question:
+            who = robots_meant(mission.question, text)
+            return await self._readdress(mission, mission.way, who)
         if mission.state != ASKING or mission.robot is None:
             raise FleetError("not_asking", name=mission_id)
-        watch = self.watch_of(mission.robot)
+        return await self._act(mission, "answer", {"text": text, "source": SOURCE})
+
+    async def readdress(self, mission_id: str, to: Addressee) -> MissionRow:
+        """Give an order that waits to others instead.
+
+        Raises:
+            FleetError: ``unknown_mission``, or ``not_waiting``.
+        """
+        mission = await asyncio.to_thread(self.store.mission, mission_id)
+        return await self._readdress(mission, to.way, to.names)
+
+    async def _readdress(self, mission: MissionRow, way: str, names: Sequence[str]) -> MissionRow:
+        values = {"way": way, "names": json.dumps(list(names)), "question": None}
+        if not await asyncio.to_thread(self.store.change_waiting, mission.id, **values):
+            raise FleetError("not_waiting", name=mission.id)
+        self.dispatcher.work.set()
+        return await asyncio.to_thread(self.store.mission, mission.id)
+
+    async def pause(self, mission_id: str) -> MissionRow:
+        """Let the robot keep a mission's place, standing; raises as ``resume``."""
+        return await self._act(await self._bound(mission_id), "pause", {})
+
+    async def resume(self, mission_id: str) -> MissionRow:
+        """Let a robot go on with a mission that it paused: after a stop, or a restart there.
+
+        Raises:
+            FleetError: ``unknown_mission``, ``not_at_robot``, ``robot_silent``, ``robot_refused``,
+                or ``resume_at_robot`` where a person's key is needed there.
+        """
+        return await self._act(await self._bound(mission_id), "resume", {"source": SOURCE})
+
+    async def _bound(self, mission_id: str) -> MissionRow:
+        mission = await asyncio.to_thread(self.store.mission, mission_id)
+        if mission.is_over or mission.goal_id is None:
+            raise FleetError("not_at_robot", name=mission_id)
+        return mission
+
+    async def _act(self, mission: MissionRow, act: str, body: dict[str, Any]) -> MissionRow:
+        """Ask the robot for an act on a mission's goal, and take up what it tells."""
+        robot = mission.robot or ""
+        watch = self.watch_of(robot)
         try:
-            body = {"text": text, "source": SOURCE}
-            goal = await watch.link.post(f"/v1/goals/{mission.goal_id}/answer", body)
+            if not watch.link.is_proven:
+                raise RobotAway(robot)
+            goal = await watch.link.post(f"/v1/goals/{mission.goal_id}/{act}", body)
         except (RobotAway, RobotBusy):
-            raise FleetError("robot_silent", name=mission.robot) from None
+            raise FleetError("robot_silent", name=robot) from None
         except RobotRefusal as refused:
+            if refused.code in PROOF_NEEDED:
+                raise FleetError("resume_at_robot", name=robot, known=watch.link.url) from None
             why = refused.message["en"]
-            raise FleetError("robot_refused", str(refused), name=mission.robot, why=why) from None
-        self.wake(await asyncio.to_thread(self.store.apply_goals, mission.robot, [goal]))
-        return await asyncio.to_thread(self.store.mission, mission_id)
+            raise FleetError("robot_refused", str(refused), name=robot, why=why) from None
+        self.wake(await asyncio.to_thread(self.store.apply_goals, robot, [goal]))
+        return await asyncio.to_thread(self.store.mission, mission.id)
 
     async def cancel(self, mission_id: str, *, give_up: bool = False) -> MissionRow:
         """End a mission: where it waits at once, else at its robot, which hears until it confirms.

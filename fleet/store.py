@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import sqlalchemy as sa
 
 from fleet.errors import FleetError
+from fleet.house_store import HouseStore
 from fleet.records import (
     ASKING,
     AT_ROBOT,
@@ -23,11 +24,9 @@ from fleet.records import (
     WAITING,
     MissionRow,
     mission_row,
-    question_of,
-    state_of,
+    values_of_goal,
 )
-from fleet.robot_store import RobotStore
-from fleet.tables import counter, holds, missions, orders, robots, stops
+from fleet.tables import counter, holds, missions, orders, robots, rooms, stops
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -38,7 +37,7 @@ MOST_WAITING = 20_000
 _AT_WORK = (OFFERED, AT_ROBOT, ASKING, UNKNOWN)
 
 
-class FleetStore(RobotStore):
+class FleetStore(HouseStore):
     """Read and write missions, holds and stops beside the robots' rows."""
 
     # Orders ---------------------------------------------------------------------------------------
@@ -96,12 +95,20 @@ class FleetStore(RobotStore):
             raise FleetError("idempotency_conflict")
         return _select(connection, missions.c.order_id == found["id"])
 
-    def claim(self, mission: MissionRow, robot: str) -> MissionRow | None:
-        """Give a waiting mission its robot, for good; None: it waits no more, or that is busy."""
+    def claim(
+        self, mission: MissionRow, robot: str, wanted: Collection[str] = ()
+    ) -> MissionRow | None:
+        """Give a waiting mission its robot, for good, and the rooms for one robot that it wants.
+
+        None: it waits no more, or the robot is busy, or one of the rooms is held by another.
+        """
         with self.engine.begin() as connection:
             self._raise_counter(connection)  # one writer at a time from here on
             is_held = sa.select(holds.c.mission).where(holds.c.robot == robot)
             if not mission.is_urgent and connection.execute(is_held).first() is not None:
+                return None
+            is_taken = sa.select(rooms.c.mission).where(rooms.c.room.in_(list(wanted)))
+            if wanted and connection.execute(is_taken).first() is not None:
                 return None
             waits = (missions.c.id == mission.id) & (missions.c.state == WAITING)
             values = {"robot": robot, "state": OFFERED, "reason": None}
@@ -110,6 +117,8 @@ class FleetStore(RobotStore):
             if not mission.is_urgent:
                 row = {"robot": robot, "mission": mission.id}
                 connection.execute(holds.insert().values(**row))
+            for room in wanted:  # all at once, so that no two missions wait for each other
+                connection.execute(rooms.insert().values(room=room, mission=mission.id))
             here = robots.c.name == robot
             connection.execute(robots.update().where(here).values(used_seq=mission.seq))
             return _select(connection, missions.c.id == mission.id)[0]
@@ -167,6 +176,12 @@ class FleetStore(RobotStore):
         with self.engine.begin() as connection:
             return {row.robot: row.mission for row in connection.execute(sa.select(holds))}
 
+    def change_waiting(self, mission_id: str, **values: Any) -> bool:
+        """Write fields of a mission that waits for a robot; return whether it does."""
+        with self.engine.begin() as connection:
+            waits = (missions.c.id == mission_id) & (missions.c.state == WAITING)
+            return self._change(connection, waits, values)
+
     def change(self, mission_id: str, **values: Any) -> bool:
         """Write fields of a mission that has not ended; return whether it has not."""
         with self.engine.begin() as connection:
@@ -181,6 +196,8 @@ class FleetStore(RobotStore):
             is_open = (missions.c.id == mission_id) & missions.c.state.not_in(list(ENDED))
             self._change(connection, is_open, {**values, "state": state, "reason": reason})
             connection.execute(holds.delete().where(holds.c.mission == mission_id))
+            if values.get("wish") is None:  # else its robot may still be in the room
+                connection.execute(rooms.delete().where(rooms.c.mission == mission_id))
             return _select(connection, missions.c.id == mission_id)[0]
 
     def cancel(self, mission_id: str) -> MissionRow:
@@ -213,7 +230,9 @@ class FleetStore(RobotStore):
                 for mission in _select(connection, mine):
                     if mission.goal_state in GOAL_ENDED and goal["state"] not in GOAL_ENDED:
                         continue  # asked for earlier than what is known; an end is the last word
-                    self._change(connection, missions.c.id == mission.id, _of_goal(mission, goal))
+                    self._change(
+                        connection, missions.c.id == mission.id, values_of_goal(mission, goal)
+                    )
                     touched.append(mission.id)
             if cursor is not None:
                 here = robots.c.name == robot
@@ -224,7 +243,7 @@ class FleetStore(RobotStore):
         """Write down that a robot's journal has a mission, as this goal."""
         with self.engine.begin() as connection:
             mission = _select(connection, missions.c.id == mission_id)[0]
-            values = {"goal_id": goal["id"], **_of_goal(mission, goal)}
+            values = {"goal_id": goal["id"], **values_of_goal(mission, goal)}
             self._change(connection, missions.c.id == mission_id, values)
 
     def mark_lost(self, mission_id: str) -> None:
@@ -260,7 +279,10 @@ class FleetStore(RobotStore):
     def clear_wish(self, mission_id: str) -> None:
         """Note that a robot has heard that a mission is to end."""
         with self.engine.begin() as connection:
-            self._change(connection, missions.c.id == mission_id, {"wish": None})
+            mine = missions.c.id == mission_id
+            self._change(connection, mine, {"wish": None})
+            if _select(connection, mine & missions.c.state.in_(list(ENDED))):
+                connection.execute(rooms.delete().where(rooms.c.mission == mission_id))
 
     def is_barred(self, mission: MissionRow) -> bool:
         """Return whether its robot was stopped after a mission was ordered."""
@@ -323,18 +345,3 @@ def _select(
 ) -> list[MissionRow]:
     wanted = sa.select(missions).where(condition).order_by(missions.c.seq).limit(limit)
     return [mission_row(row) for row in connection.execute(wanted).mappings()]
-
-
-def _of_goal(mission: MissionRow, goal: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a goal tells of its mission. One that people ended keeps its state."""
-    asked, outcome = question_of(goal), goal.get("outcome")
-    values: dict[str, Any] = {
-        "goal_state": goal["state"],
-        "question": json.dumps(asked, ensure_ascii=False) if asked else None,
-        "outcome": json.dumps(outcome, ensure_ascii=False) if outcome else None,
-    }
-    if not mission.is_over:
-        is_last = goal["state"] in GOAL_ENDED
-        state = mission.state if is_last else state_of(goal)
-        values |= {"state": state, "reason": goal.get("reason"), "unknown_since_unix_s": None}
-    return values

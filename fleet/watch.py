@@ -56,8 +56,9 @@ class RobotWatch:
         """It answers as the one that was added, and has heard all stops and withdrawals."""
         self.trouble: str | None = None
         self.told: dict[str, Any] = {}
+        self.usage: dict[str, Any] = {}
+        """What its model has spent today; empty: not told yet."""
         self.heard_unix_s: float | None = None
-        self.open_goals = 0
         self._began_s = time.monotonic()
         self._heard_s: float | None = None
         self._looked_s = self._reconciled_s = float("-inf")
@@ -157,6 +158,7 @@ class RobotWatch:
         await self.stop_now()
         if not self.link.is_proven:
             card = await self.link.prove()
+            card["skills"] = (await self._ask_of_old("/v1/skills")).get("skills", [])
             await asyncio.to_thread(self._store.update_card, self.name, card)
             self._reconciled_s = float("-inf")
         if self._is_marked or self._reconciled_s == float("-inf"):
@@ -204,7 +206,18 @@ class RobotWatch:
         if time.monotonic() - self._looked_s > LOOK_S:
             told = await self.link.get("/v1/robot")
             self.told = told if isinstance(told, dict) else {}
+            self.usage = await self._ask_of_old("/v1/usage")
             self._looked_s = time.monotonic()
+
+    async def _ask_of_old(self, path: str) -> dict[str, Any]:
+        """Return what a robot tells there; nothing of one of before that has no such route."""
+        try:
+            told = await self.link.get(path)
+        except RobotRefusal as refused:
+            if refused.status != 404:
+                raise
+            told = None
+        return told if isinstance(told, dict) else {}
 
     def _note_heard(self) -> None:
         self._heard_s, self.heard_unix_s = time.monotonic(), time.time()
@@ -238,5 +251,6 @@ def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> di
         "mode": status.get("mode"), "base_in_map": status.get("base_in_map"),
         "room": watch.told.get("room"), "map_id": card.get("map_id"), "site": card.get("site"),
         "release": card.get("release"), "camera": card.get("camera"),
+        "battery": (status.get("drive") or {}).get("battery"),
         "pin": {"kind": robot.pin_kind, "sha256": robot.pin_sha256},
     }  # fmt: skip
