@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from fleet.dispatch import Dispatcher
+    from fleet.house import HouseRules
     from fleet.store import FleetStore
     from fleet.watch import RobotWatch
 
@@ -59,31 +60,35 @@ async def look_after_batteries(desk: ChargeDesk) -> None:
     while True:
         await asyncio.sleep(LOOK_S)
         try:
-            await note_batteries(desk)
-            await send_to_charge(desk)
+            rules = await asyncio.to_thread(desk.store.rules)
+            lows = await note_batteries(desk, rules)
+            if lows and rules.charge:
+                await send_to_charge(desk, lows)
         except SQLAlchemyError as error:
             log.warning("store_unavailable: %s", error)
         except FleetError as refused:  # queue_full
             log.warning("%s", refused)
 
 
-async def note_batteries(desk: ChargeDesk) -> None:
-    """Keep who is low on battery; a robot that is silent stays as it was."""
-    rules = await asyncio.to_thread(desk.store.rules)
+async def note_batteries(desk: ChargeDesk, rules: HouseRules) -> dict[str, float]:
+    """Keep who is low on battery and since when; a robot that is silent stays as it was."""
     lows = await asyncio.to_thread(desk.store.lows)
-    for name, watch in desk.watches.items():
+    has_changed = False
+    for name, watch in list(desk.watches.items()):
         was = name in lows
         low = rules.is_low(was, battery_of(watch)) if watch.is_ready else was
         if low != was:
+            has_changed = True
             await asyncio.to_thread(desk.store.note_low, name, low=low)
-            desk.dispatcher.work.set()
+    if not has_changed:
+        return lows
+    desk.dispatcher.work.set()
+    return await asyncio.to_thread(desk.store.lows)
 
 
-async def send_to_charge(desk: ChargeDesk) -> None:
+async def send_to_charge(desk: ChargeDesk, lows: Mapping[str, float]) -> None:
     """Give each robot that is low and free one mission to its dock."""
-    rules = await asyncio.to_thread(desk.store.rules)
-    lows = await asyncio.to_thread(desk.store.lows) if rules.charge else {}
-    held = await asyncio.to_thread(desk.store.missions_at_robots) if lows else {}
+    held = await asyncio.to_thread(desk.store.missions_at_robots)
     cards = {row.name: row.capabilities for row in await asyncio.to_thread(desk.store.robots)}
     for name, since_s in lows.items():
         watch, dock = desk.watches.get(name), dock_of(cards.get(name, {}))

@@ -29,6 +29,7 @@ POLL_S = 0.5
 SILENT_S = 10.0
 """A robot that has not answered for so long is told as silent; Wi-Fi roams in a few seconds."""
 LOOK_S = 2.0
+METER_S = 10.0
 RECONCILE_S = 30.0
 """So often each open goal is asked for by its id: a cursor of a journal that was replaced tells
 nothing."""
@@ -61,7 +62,7 @@ class RobotWatch:
         self.heard_unix_s: float | None = None
         self._began_s = time.monotonic()
         self._heard_s: float | None = None
-        self._looked_s = self._reconciled_s = float("-inf")
+        self._looked_s = self._metered_s = self._reconciled_s = float("-inf")
         self._is_marked = False
         self._cursor: int | None = None
         self._nudged = asyncio.Event()
@@ -206,8 +207,10 @@ class RobotWatch:
         if time.monotonic() - self._looked_s > LOOK_S:
             told = await self.link.get("/v1/robot")
             self.told = told if isinstance(told, dict) else {}
-            self.usage = await self._ask_of_old("/v1/usage")
             self._looked_s = time.monotonic()
+        if time.monotonic() - self._metered_s > METER_S:
+            self.usage = await self._ask_of_old("/v1/usage")
+            self._metered_s = time.monotonic()
 
     async def _ask_of_old(self, path: str) -> dict[str, Any]:
         """Return what a robot tells there; nothing of one of before that has no such route."""
