@@ -1,4 +1,4 @@
-"""Be the command ``pons fleet``: up | demo | add | list | say | stop | answer | cancel."""
+"""Be the command ``pons fleet``: up | demo | add | list | say | stop | answer | …, by words."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ import httpx
 from sqlalchemy.exc import SQLAlchemyError
 
 from fleet.errors import FleetError, tell
+from fleet.house_commands import add_commands
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 DEFAULT_PORT = 8440
@@ -74,6 +75,7 @@ def _parser() -> argparse.ArgumentParser:
     listed.set_defaults(act=_list)
     said = acts.add_parser("say", help='give an order: pons fleet say "everybody go home"')
     said.add_argument("text")
+    said.add_argument("--confirm", action="store_true", help="show the plan and wait for a yes")
     said.add_argument("--key", help="the same key and order make the same missions")
     said.set_defaults(act=_say)
     stop = acts.add_parser("stop", help="stop robots; without names all")
@@ -87,6 +89,7 @@ def _parser() -> argparse.ArgumentParser:
     cancel.add_argument("mission")
     cancel.add_argument("--give-up", action="store_true", help="end one whose robot is silent")
     cancel.set_defaults(act=_cancel)
+    add_commands(acts, _ask, _pick, _print_mission)
     return parser
 
 
@@ -150,7 +153,8 @@ def _list(given: argparse.Namespace, _: Path) -> int:
 
 def _say(given: argparse.Namespace, _: Path) -> int:
     headers = {"idempotency-key": given.key} if given.key else {}
-    told = _ask("POST", "/v1/missions", {"text": given.text}, headers)
+    body = {"text": given.text, "confirm": given.confirm}
+    told = _ask("POST", "/v1/missions", body, headers)
     if given.json:
         print(json.dumps(told, ensure_ascii=False))
         return EXIT_DONE

@@ -7,17 +7,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from fastapi import FastAPI, Header, Query
 from fastapi.exceptions import RequestValidationError
-from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
+from pydantic import Field, StrictBool, model_validator
 from sqlalchemy.exc import SQLAlchemyError
 from starlette.exceptions import HTTPException
 
 from fleet.access import AccessDoor, problem
 from fleet.addressee import Addressee, to_names
 from fleet.errors import FleetError, tell
+from fleet.house_api import FleetBody, house_routes
 from fleet.records import MissionRow, show_mission
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
+    from collections.abc import AsyncIterator, Callable
 
     from fastapi import Request
     from starlette.responses import Response
@@ -33,12 +34,6 @@ Key = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_le
 Cursor = Annotated[int | None, Query(ge=0, le=2**53)]
 Limit = Annotated[int, Query(ge=1, le=200)]
 Names = Annotated[tuple[str, ...], Field(min_length=1, max_length=1_000)]
-
-
-class FleetBody(BaseModel):
-    """Refuse unknown fields: a misspelt option must not be ignored."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
 
 class NewMission(FleetBody):
@@ -107,6 +102,7 @@ def build_app(desk: Desk, access: FleetAccess, url: str, lock: CarrierLock) -> A
         app.add_exception_handler(kind, _refuse)
     _robots(app, desk)
     _missions(app, desk)
+    app.include_router(house_routes(desk, mission_view(desk)))
     return AccessDoor(app, access)
 
 
@@ -125,21 +121,16 @@ def _robots(app: FastAPI, desk: Desk) -> None:
     @app.post("/v1/stop", operation_id="stop_robots")
     async def stop(order: FleetStop | None = None) -> dict[str, Any]:
         """Stop robots, and tell who has confirmed; the others are told until they do."""
-        return await desk.stop(order.robots if order is not None else None)
+        return await desk.stops.stop(order.robots if order is not None else None)
 
     @app.get("/v1/stop/{stop_id}", operation_id="get_stop")
     async def stop_state(stop_id: str) -> dict[str, Any]:
         """Tell who has confirmed a stop by now."""
-        return await desk.stop_state(stop_id)
+        return await desk.stops.state(stop_id)
 
 
 def _missions(app: FastAPI, desk: Desk) -> None:
-    def view(mission: MissionRow) -> dict[str, Any]:
-        shown = show_mission(mission)
-        waits_for = desk.dispatcher.waits_for(mission) if desk.is_carrier else None
-        if waits_for is not None:
-            shown["reason"], shown["message"] = waits_for, tell(waits_for)
-        return shown
+    view = mission_view(desk)
 
     @app.post("/v1/missions", status_code=202, operation_id="give_mission")
     async def give(new: NewMission, idempotency_key: Key = None) -> dict[str, Any]:
@@ -149,9 +140,9 @@ def _missions(app: FastAPI, desk: Desk) -> None:
         """
         addressee = new.addressee(tuple(sorted(desk.watches)))
         if new.text is not None and addressee is None:
-            stopped = desk.stop_of(new.text)
+            stopped = desk.stops.robots_of(new.text)
             if stopped is not None:
-                return {"missions": [], "stop": await desk.stop(stopped)}
+                return {"missions": [], "stop": await desk.stops.stop(stopped)}
         missions = await desk.order(
             new.text, new.steps, addressee, idempotency_key, confirm=new.confirm
         )
@@ -180,6 +171,20 @@ def _missions(app: FastAPI, desk: Desk) -> None:
         """End a mission; its robot is told until it confirms."""
         asked = how or MissionCancel()
         return view(await desk.cancel(mission_id, give_up=asked.give_up))
+
+
+def mission_view(desk: Desk) -> Callable[[MissionRow], dict[str, Any]]:
+    """Return how a mission is shown: with what it waits for, and who could take it instead."""
+
+    def view(mission: MissionRow) -> dict[str, Any]:
+        shown = show_mission(mission)
+        if not desk.is_carrier:  # who stands by knows of no robot whether it is free
+            return {**shown, "instead": []}
+        if (waits_for := desk.dispatcher.waits_for(mission)) is not None:
+            shown["reason"], shown["message"] = waits_for, tell(waits_for)
+        return {**shown, "instead": desk.dispatcher.instead_of(mission)}
+
+    return view
 
 
 async def _refuse(_: Request, error: Exception) -> Response:

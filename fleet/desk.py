@@ -18,14 +18,17 @@ from typing import TYPE_CHECKING, Any
 from sqlalchemy.exc import SQLAlchemyError
 
 from fleet import workflow
-from fleet.addressee import STOPS, Addressee, is_stop, read_addressee, to_names
+from fleet.addressee import STOPS, Addressee, read_addressee
 from fleet.carrier import keep_lock
-from fleet.dispatch import Dispatcher
+from fleet.charging import look_after_batteries
+from fleet.dispatch import Dispatcher, robots_meant
 from fleet.errors import FleetError
 from fleet.link import RobotAway, RobotBusy, RobotRefusal
-from fleet.records import ASKING, GIVEN_UP, UNKNOWN, MissionRow, RobotRow
+from fleet.records import ASKING, GIVEN_UP, UNKNOWN, WAITING, MissionRow, RobotRow
 from fleet.robots import link_of
-from fleet.watch import SOURCE, STOP_S, RobotWatch, show_robot
+from fleet.standing import keep_time
+from fleet.stops import Stops
+from fleet.watch import SOURCE, RobotWatch, show_robot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -36,12 +39,12 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-NOTE_S = 2.0
-"""A stop waits no longer for its row."""
 THREADS = 64
 """For the database and for names of hosts: one that hangs must not keep a stop from its robot."""
 ROBOTS_S = 2.0
 """So often robots are looked for that ``pons fleet add`` has added."""
+PROOF_NEEDED = frozenset({"operator_proof_needed", "person_needed", "operator_needed"})
+"""Of a robot of metal: its operator's key alone clears what a stop has held."""
 _CHINESE = re.compile(r"[\u4e00-\u9fff]")
 
 
@@ -60,6 +63,7 @@ class Desk:
         self._tokens: dict[str, str] = {}
         self._tasks: dict[str, asyncio.Task[None]] = {}
         self.dispatcher = Dispatcher(store, self.watches, self._rows)
+        self.stops = Stops(self)
 
     # Life -----------------------------------------------------------------------------------------
 
@@ -81,7 +85,9 @@ class Desk:
         for name, watch in self.watches.items():
             watch.trouble = None
             self._tasks[name] = asyncio.create_task(watch.run())
-        for name, loop in (("dispatch", self.dispatcher.run()), ("sweep", workflow.sweep(self))):
+        for name, loop in (("dispatch", self.dispatcher.run()), ("sweep", workflow.sweep(self)),
+                           ("standing", keep_time(self)),
+                           ("charging", look_after_batteries(self))):  # fmt: skip
             self._tasks[f" {name}"] = asyncio.create_task(loop)
 
     async def close(self) -> None:
@@ -167,6 +173,7 @@ class Desk:
         key: str | None,
         *,
         confirm: bool = False,
+        order_id: str | None = None,
     ) -> list[MissionRow]:
         """Accept an order: on return its missions are written down.
 
@@ -187,7 +194,7 @@ class Desk:
         language = "zh" if _CHINESE.search(order) else "en"
         body: dict[str, Any] = {"language": language, "source": SOURCE, "confirm": confirm}
         body |= {"text": order} if steps is None else {"steps": steps}
-        order_id = f"o-{uuid.uuid4().hex[:20]}"
+        order_id = order_id or f"o-{uuid.uuid4().hex[:20]}"
         is_urgent = steps is None and STOPS.search(order) is not None
         wanted = [(f"m-{uuid.uuid4().hex}", who, body, is_urgent) for who in whom]
         asked = json.dumps(
@@ -200,79 +207,73 @@ class Desk:
         self.dispatcher.work.set()
         return missions
 
-    def stop_of(self, text: str) -> tuple[str, ...] | None:
-        """Return whom a sentence stops; None: it is no bare stop."""
-        addressee, order = read_addressee(text, self.watches)
-        if not is_stop(order):
-            return None
-        named = addressee is not None and addressee.way in ("named", "each")
-        return addressee.names if addressee is not None and named else tuple(sorted(self.watches))
-
-    async def stop(self, names: Sequence[str] | None) -> dict[str, Any]:
-        """Stop these robots, or all, and tell who has confirmed. It is repeated to the others.
-
-        Raises:
-            FleetError: ``unknown_robot``.
-        """
-        known = tuple(sorted(self.watches))
-        asked = known if names is None else to_names(names, known)
-        stop_id, is_all = f"s-{uuid.uuid4().hex[:20]}", set(asked) == set(known)
-        try:
-            noting = asyncio.to_thread(self.store.stop, stop_id, asked, forever=is_all)
-            ended = await asyncio.wait_for(noting, NOTE_S)
-        except (SQLAlchemyError, TimeoutError):  # a stop waits for no disk
-            return await self._stop_unwritten(stop_id, asked, forever=is_all)
-        acts = [asyncio.create_task(self._stop_one(name)) for name in asked]
-        if acts:
-            await asyncio.wait(acts, timeout=STOP_S)
-        self.wake([*ended, *self.running])
-        confirmed, missing = await asyncio.to_thread(self.store.stop_state, stop_id)
-        return _tell_stop(stop_id, confirmed, missing)
-
-    async def stop_state(self, stop_id: str) -> dict[str, Any]:
-        """Tell who has confirmed a stop by now."""
-        return _tell_stop(stop_id, *await asyncio.to_thread(self.store.stop_state, stop_id))
-
-    async def _stop_one(self, name: str) -> None:
-        try:
-            await self.watches[name].stop_now()
-        except (RobotAway, RobotBusy, RobotRefusal, SQLAlchemyError) as trouble:
-            log.warning("stop of %s: %s", name, trouble)
-        self.watches[name].nudge()  # it is repeated there until confirmed
-
-    async def _stop_unwritten(
-        self, stop_id: str, names: Sequence[str], *, forever: bool
-    ) -> dict[str, Any]:
-        """Stop by the wires alone, where the database is away; its row is owed."""
-        acts = {}
-        for name in names:
-            self.watches[name].is_ready = False  # nothing is offered before the row is there
-            acts[name] = self.watches[name].link.post("/v1/stop", {"source": SOURCE})
-        done = await asyncio.gather(*acts.values(), return_exceptions=True)
-        heard = [name for name, answer in zip(acts, done, strict=True) if isinstance(answer, dict)]
-        self.store.owe_stop(stop_id, names, forever=forever, heard=heard)
-        return _tell_stop(stop_id, heard, [name for name in names if name not in heard])
-
     async def answer(self, mission_id: str, text: str) -> MissionRow:
-        """Pass a person's answer on to the robot that asked.
+        """Pass a person's answer on to the robot that asked, or take it where the fleet asks.
 
         Raises:
-            FleetError: ``unknown_mission``, ``not_asking``, ``robot_silent`` or ``robot_refused``.
+            FleetError: ``unknown_mission``, ``not_asking``, ``robot_silent``, ``robot_refused`` or
+                ``which_home``.
         """
         mission = await asyncio.to_thread(self.store.mission, mission_id)
+        if mission.state == WAITING and mission.question:
+            who = robots_meant(mission.question, text)
+            return await self._readdress(mission, mission.way, who)
         if mission.state != ASKING or mission.robot is None:
             raise FleetError("not_asking", name=mission_id)
-        watch = self.watch_of(mission.robot)
+        return await self._act(mission, "answer", {"text": text, "source": SOURCE})
+
+    async def readdress(self, mission_id: str, to: Addressee) -> MissionRow:
+        """Give an order that waits to others instead.
+
+        Raises:
+            FleetError: ``unknown_mission``, or ``not_waiting``.
+        """
+        mission = await asyncio.to_thread(self.store.mission, mission_id)
+        return await self._readdress(mission, to.way, to.names)
+
+    async def _readdress(self, mission: MissionRow, way: str, names: Sequence[str]) -> MissionRow:
+        values = {"way": way, "names": json.dumps(list(names)), "question": None}
+        if not await asyncio.to_thread(self.store.change_waiting, mission.id, **values):
+            raise FleetError("not_waiting", name=mission.id)
+        self.dispatcher.work.set()
+        return await asyncio.to_thread(self.store.mission, mission.id)
+
+    async def pause(self, mission_id: str) -> MissionRow:
+        """Let the robot keep a mission's place, standing; raises as ``resume``."""
+        return await self._act(await self._bound(mission_id), "pause", {})
+
+    async def resume(self, mission_id: str) -> MissionRow:
+        """Let a robot go on with a mission that it paused: after a stop, or a restart there.
+
+        Raises:
+            FleetError: ``unknown_mission``, ``not_at_robot``, ``robot_silent``, ``robot_refused``,
+                or ``resume_at_robot`` where a person's key is needed there.
+        """
+        return await self._act(await self._bound(mission_id), "resume", {"source": SOURCE})
+
+    async def _bound(self, mission_id: str) -> MissionRow:
+        mission = await asyncio.to_thread(self.store.mission, mission_id)
+        if mission.is_over or mission.goal_id is None:
+            raise FleetError("not_at_robot", name=mission_id)
+        return mission
+
+    async def _act(self, mission: MissionRow, act: str, body: dict[str, Any]) -> MissionRow:
+        """Ask the robot for an act on a mission's goal, and take up what it tells."""
+        robot = mission.robot or ""
+        watch = self.watch_of(robot)
         try:
-            body = {"text": text, "source": SOURCE}
-            goal = await watch.link.post(f"/v1/goals/{mission.goal_id}/answer", body)
+            if not watch.link.is_proven:
+                raise RobotAway(robot)
+            goal = await watch.link.post(f"/v1/goals/{mission.goal_id}/{act}", body)
         except (RobotAway, RobotBusy):
-            raise FleetError("robot_silent", name=mission.robot) from None
+            raise FleetError("robot_silent", name=robot) from None
         except RobotRefusal as refused:
+            if refused.code in PROOF_NEEDED:
+                raise FleetError("resume_at_robot", name=robot, known=watch.link.url) from None
             why = refused.message["en"]
-            raise FleetError("robot_refused", str(refused), name=mission.robot, why=why) from None
-        self.wake(await asyncio.to_thread(self.store.apply_goals, mission.robot, [goal]))
-        return await asyncio.to_thread(self.store.mission, mission_id)
+            raise FleetError("robot_refused", str(refused), name=robot, why=why) from None
+        self.wake(await asyncio.to_thread(self.store.apply_goals, robot, [goal]))
+        return await asyncio.to_thread(self.store.mission, mission.id)
 
     async def cancel(self, mission_id: str, *, give_up: bool = False) -> MissionRow:
         """End a mission: where it waits at once, else at its robot, which hears until it confirms.
@@ -316,14 +317,3 @@ class Desk:
         held = await asyncio.to_thread(self.store.missions_at_robots)
         return [show_robot(row, self.watches[name], held.get(name))
                 for name, row in sorted(self._rows.items()) if name in self.watches]  # fmt: skip
-
-
-def _tell_stop(stop_id: str, confirmed: list[str], missing: list[str]) -> dict[str, Any]:
-    """Say who has confirmed a stop: "7 of 8 confirmed, r4 not reached"."""
-    count, names = f"{len(confirmed)} of {len(confirmed) + len(missing)}", ", ".join(missing)
-    english = f"{count} confirmed" + (f", {names} not reached" if missing else "")
-    chinese = f"{len(confirmed) + len(missing)} 台中 {len(confirmed)} 台已确认" + (
-        f"，未联系上 {names}" if missing else ""
-    )
-    return {"id": stop_id, "confirmed": confirmed, "not_reached": missing,
-            "message": {"en": english, "zh": chinese}}  # fmt: skip

@@ -143,10 +143,94 @@ WORDS: dict[str, tuple[int, str, str]] = {
         "Another fleet service carries the missions and watches this robot; this one stands by.",
         "由另一个车队服务执行任务并关注此机器人；本服务待命。",
     ),
+    "not_waiting": (
+        409,
+        "Mission {name} waits no more, so it can't be given to others.",
+        "任务 {name} 已不在等待，不能改派。",
+    ),
+    "not_at_robot": (
+        409,
+        "Mission {name} is at no robot now: it waits, is on its way there, or is over.",
+        "任务 {name} 现在不在机器人上：还在等待、正在送达或已结束。",
+    ),
+    "resume_at_robot": (
+        409,
+        "Robot {name} goes on only after a person with its key: use its page {known}, or"
+        " `pons resume` there.",
+        "机器人 {name} 需持钥匙的人才能继续：请用它的网页 {known}，或在那里运行 `pons resume`。",
+    ),
+    "which_home": (
+        422,
+        "Several homes have such a place: {known}. Which one?",
+        "有几个家都有这个地方：{known}。是哪一个？",
+    ),
+    "unknown_order": (404, "There is no standing order {name}.", "没有定时命令 {name}。"),
+    "standing_full": (
+        429,
+        "{count} standing orders are kept already; remove one.",
+        "已有 {count} 个定时命令；请先删除一个。",
+    ),
+    "standing_time": (
+        422,
+        "{name!r} is no time: give a time of day as 19:00, or five fields of cron as 0 19 * * 1-5.",
+        "{name!r} 不是时间：请用 19:00 这样的时刻，或 cron 的五个字段，如 0 19 * * 1-5。",
+    ),
+    "standing_often": (
+        422,
+        "{name!r} comes more often than every 5 minutes.",
+        "{name!r} 的间隔短于 5 分钟。",
+    ),
+    "standing_stop": (
+        422,
+        "A stop can't be a standing order; stop at once instead.",
+        "停止不能作为定时命令；请直接停止。",
+    ),
     # What a mission waits for, or why it ended without a robot's outcome.
     "robots_busy": (200, "All robots that may go are busy.", "可去的机器人都在忙。"),
     "nobody_answers": (200, "No robot that may go answers.", "可去的机器人都没有应答。"),
     "nobody_can": (200, "No robot that may go can do this.", "可去的机器人都做不了。"),
+    "robots_low": (
+        200,
+        "The robots that may go are low on battery.",
+        "可去的机器人电量都低。",
+    ),
+    "quiet_hours": (
+        200,
+        "These are quiet hours: it begins when they end. Give it with confirm to begin now.",
+        "现在是安静时段：结束后才开始。要马上开始，请带 confirm 重新下命令。",
+    ),
+    "room_taken": (
+        200,
+        "Another robot is in, or bound for, a room where one at a time may be.",
+        "限一台机器人的房间里已有另一台，或另一台正要去。",
+    ),
+    "budget_spent": (
+        200,
+        "The models of all robots have spent the day's budget of the house; it begins again at 0:00"
+        " UTC. An order as steps needs no model.",
+        "所有机器人的模型已用完今天的预算；UTC 零点重新计算。按步骤给的命令不需要模型。",
+    ),
+    "paused_there": (
+        200,
+        "It is paused at {name} and goes on when a person resumes it.",
+        "它在 {name} 上已暂停，由人恢复后才继续。",
+    ),
+    "too_late": (
+        200,
+        "The standing order could not begin in time and was left out.",
+        "定时命令未能及时开始，本次已略过。",
+    ),
+    "was_off": (
+        200,
+        "The fleet was not running at this time; what is over is not made up.",
+        "当时车队服务没有运行；错过的不会补做。",
+    ),
+    "day_skipped": (200, "This day was left out.", "这一天已设为略过。"),
+    "standing_quiet": (
+        200,
+        "Its time lies in the quiet hours, so what moves would be left out.",
+        "它的时间在安静时段内，需要移动的将被略过。",
+    ),
     "stopped_first": (200, "It was stopped before it began.", "开始之前已被停止。"),
     "cancelled_first": (200, "It was cancelled before it began.", "开始之前已被取消。"),
     "ended_by_person": (

@@ -20,8 +20,12 @@ SUCCEEDED, FAILED, REFUSED, CANCELLED, GIVEN_UP = (
     "succeeded", "failed", "refused", "cancelled", "given_up",
 )  # fmt: skip
 ENDED = frozenset({SUCCEEDED, FAILED, REFUSED, CANCELLED, GIVEN_UP})
+PAUSED = "paused"
 GOAL_ENDED = frozenset({SUCCEEDED, FAILED, REFUSED, CANCELLED})
 """States of a goal at a robot that end it; the mission then ends in the same."""
+STANDING, CHARGE = "st-", "ch-"
+"""What an order's id begins with that no person gave: a standing order's run, a way to charge."""
+_CAUSES = {STANDING: "standing_order", CHARGE: "low_battery"}
 _ASKS = frozenset({"needs_clarification", "awaiting_confirmation"})
 
 
@@ -104,12 +108,19 @@ def show_mission(mission: MissionRow) -> dict[str, Any]:
                      "goal_state", "wish", "unknown_since_unix_s", "created_unix_s",
                      "updated_unix_s")
     }  # fmt: skip
-    shown["names"] = list(mission.candidates)
+    shown["names"], shown["cause"] = list(mission.candidates), cause_of(mission)
     for name in ("question", "outcome"):
         text = getattr(mission, name)
         shown[name] = json.loads(text) if text else None
+    if mission.state == WAITING and shown["question"]:  # the fleet itself asks
+        shown["state"], shown["reason"] = ASKING, shown["question"]["kind"]
     shown["message"] = _message(mission, shown["outcome"])
     return shown
+
+
+def cause_of(mission: MissionRow) -> str:
+    """Return why there is a mission: ``person``, ``standing_order`` or ``low_battery``."""
+    return _CAUSES.get(mission.order_id[:3], "person")
 
 
 def _message(mission: MissionRow, outcome: dict[str, Any] | None) -> dict[str, str] | None:
@@ -120,6 +131,8 @@ def _message(mission: MissionRow, outcome: dict[str, Any] | None) -> dict[str, s
             "en": f"unknown since {clock}: {mission.robot} does not answer; it may go on by itself",
             "zh": f"{clock} 起情况不明：{mission.robot} 没有应答；它可能仍在执行",
         }
+    if mission.goal_state == PAUSED and not mission.is_over:
+        return tell("paused_there", {"name": mission.robot})
     if outcome and isinstance(outcome.get("message"), dict) and mission.state != GIVEN_UP:
         told: dict[str, str] = outcome["message"]
         return told

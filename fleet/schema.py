@@ -16,7 +16,7 @@ from wire import ConfigError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-VERSION = 1
+VERSION = 2
 """Of the tables; a database that knows a higher one has been used by a newer Pons."""
 _ONE_AT_A_TIME = 0x504F4E54
 """Of Postgres' advisory locks: of services that start at once one makes the tables."""

@@ -66,6 +66,38 @@ holds = sa.Table(
     sa.Column("robot", sa.String(32), primary_key=True),
     sa.Column("mission", sa.String(64), nullable=False, unique=True),
 )
+rooms = sa.Table(
+    "fleet_rooms",
+    metadata,
+    sa.Column("room", sa.String(140), primary_key=True),  # home/id, of those for one robot
+    sa.Column("mission", sa.String(64), nullable=False, index=True),
+)
+house = sa.Table(
+    "fleet_house",
+    metadata,
+    sa.Column("id", sa.Integer, primary_key=True),
+    sa.Column("rules", sa.Text, nullable=False),
+)
+lows = sa.Table(
+    "fleet_lows",
+    metadata,
+    sa.Column("robot", sa.String(32), primary_key=True),  # low on battery until it has charged
+    sa.Column("since_unix_s", sa.Float, nullable=False),
+)
+standing = sa.Table(
+    "fleet_standing",
+    metadata,
+    sa.Column("id", sa.String(16), primary_key=True),
+    sa.Column("text", sa.Text, nullable=False),
+    sa.Column("cron", sa.String(120), nullable=False),
+    sa.Column("zone", sa.String(64), nullable=False),
+    sa.Column("skipped", sa.Text, nullable=False),  # days that are left out, as JSON
+    sa.Column("handled_unix_s", sa.Float, nullable=False),  # runs up to it are done or told
+    sa.Column("last", sa.Text),  # what came of the newest run, as JSON
+    sa.Column("fired", sa.Integer, nullable=False),
+    sa.Column("missed", sa.Integer, nullable=False),
+    sa.Column("created_unix_s", sa.Float, nullable=False),
+)
 stops = sa.Table(
     "fleet_stops",
     metadata,

@@ -29,6 +29,7 @@ POLL_S = 0.5
 SILENT_S = 10.0
 """A robot that has not answered for so long is told as silent; Wi-Fi roams in a few seconds."""
 LOOK_S = 2.0
+METER_S = 10.0
 RECONCILE_S = 30.0
 """So often each open goal is asked for by its id: a cursor of a journal that was replaced tells
 nothing."""
@@ -56,11 +57,12 @@ class RobotWatch:
         """It answers as the one that was added, and has heard all stops and withdrawals."""
         self.trouble: str | None = None
         self.told: dict[str, Any] = {}
+        self.usage: dict[str, Any] = {}
+        """What its model has spent today; empty: not told yet."""
         self.heard_unix_s: float | None = None
-        self.open_goals = 0
         self._began_s = time.monotonic()
         self._heard_s: float | None = None
-        self._looked_s = self._reconciled_s = float("-inf")
+        self._looked_s = self._metered_s = self._reconciled_s = float("-inf")
         self._is_marked = False
         self._cursor: int | None = None
         self._nudged = asyncio.Event()
@@ -157,6 +159,7 @@ class RobotWatch:
         await self.stop_now()
         if not self.link.is_proven:
             card = await self.link.prove()
+            card["skills"] = (await self._ask_of_old("/v1/skills")).get("skills", [])
             await asyncio.to_thread(self._store.update_card, self.name, card)
             self._reconciled_s = float("-inf")
         if self._is_marked or self._reconciled_s == float("-inf"):
@@ -205,6 +208,19 @@ class RobotWatch:
             told = await self.link.get("/v1/robot")
             self.told = told if isinstance(told, dict) else {}
             self._looked_s = time.monotonic()
+        if time.monotonic() - self._metered_s > METER_S:
+            self.usage = await self._ask_of_old("/v1/usage")
+            self._metered_s = time.monotonic()
+
+    async def _ask_of_old(self, path: str) -> dict[str, Any]:
+        """Return what a robot tells there; nothing of one of before that has no such route."""
+        try:
+            told = await self.link.get(path)
+        except RobotRefusal as refused:
+            if refused.status != 404:
+                raise
+            told = None
+        return told if isinstance(told, dict) else {}
 
     def _note_heard(self) -> None:
         self._heard_s, self.heard_unix_s = time.monotonic(), time.time()
@@ -238,5 +254,6 @@ def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> di
         "mode": status.get("mode"), "base_in_map": status.get("base_in_map"),
         "room": watch.told.get("room"), "map_id": card.get("map_id"), "site": card.get("site"),
         "release": card.get("release"), "camera": card.get("camera"),
+        "battery": (status.get("drive") or {}).get("battery"),
         "pin": {"kind": robot.pin_kind, "sha256": robot.pin_sha256},
     }  # fmt: skip

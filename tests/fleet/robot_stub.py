@@ -23,6 +23,7 @@ from urllib.parse import parse_qs, urlsplit
 
 ENDED = ("succeeded", "failed", "refused", "cancelled")
 MAP = "00112233445566aa"
+OUTLINES = {"kitchen": [[0, 0], [4, 0], [4, 4], [0, 4]], "hall": [[4, 0], [8, 0], [8, 4], [4, 4]]}
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS keys (key TEXT PRIMARY KEY, body TEXT, goal TEXT);
 CREATE TABLE IF NOT EXISTS goals (id TEXT PRIMARY KEY, text TEXT, state TEXT, record TEXT);
@@ -40,7 +41,10 @@ class Journal:
         self.rules: dict[str, Any] = {
             "work_s": 0.05, "lose_answers": 0, "ask": False, "token": "", "id": name,
             "length_m": 5.0, "refuse": None, "role": "dispatcher", "places": ["kitchen", "hall"],
-            "resume": False, "map_id": MAP, "card": {},
+            "resume": False, "card": {},
+            "camera": None, "site": "home", "map_id": MAP, "languages": ["en", "zh"],
+            "room": "cellar", "battery": None, "orders": [], "does": "drives", "through": [],
+            "model": None, "money": 0.0, "proof": False,
         }  # fmt: skip
         self.disk = sqlite3.connect(
             folder / f"{name}.journal", check_same_thread=False, isolation_level=None
@@ -202,27 +206,42 @@ class Door(BaseHTTPRequestHandler):
                 if journal.goal(goal_id).get("state") in ENDED:
                     return 409, problem("bad_state")
                 return 200, journal.move(goal_id, "cancelled")
+            case ["v1", "goals", goal_id, "pause"]:
+                return 200, journal.move(goal_id, "paused")
+            case ["v1", "goals", goal_id, "resume"]:
+                if rules["proof"]:
+                    return 403, problem("operator_proof_needed")
+                journal.is_stopped = False
+                return 200, journal.move(goal_id, "running", answered=True)
             case ["v1", "goals", goal_id, "answer"]:
                 return 200, journal.move(goal_id, "running", plan=None)
             case ["v1", "stop"]:
                 return 200, journal.stop()
             case ["v1", "rehearsals"]:
-                return 200, {"steps": [{"does": "drives"}], "length_m": rules["length_m"]}
+                step = {"does": rules["does"], "points": rules["through"]}
+                return 200, {"steps": [step], "length_m": rules["length_m"]}
         return 404, problem("unknown_route")
 
     def _show(self, words: list[str], query: dict[str, list[str]]) -> tuple[int, dict[str, Any]]:
         journal, rules = self.journal, self.journal.rules
         match words:
             case ["v1", "capabilities"]:
-                places = [{"id": name, "name": {"en": name}, "pose": {"x_m": 1.0, "y_m": 0.0}}
-                          for name in rules["places"]]  # fmt: skip
-                return 200, {"robot_id": rules["id"], "release": "0.1", "site": "home",
-                             "map_id": rules["map_id"], "places": places, "camera": None,
-                             **rules["card"]}  # fmt: skip
+                places = [{"id": name, "name": {"en": name}, "pose": {"x_m": 1.0, "y_m": 0.0},
+                           "polygon": OUTLINES.get(name)} for name in rules["places"]]  # fmt: skip
+                told = ("site", "map_id", "camera", "languages")
+                return 200, {"robot_id": rules["id"], "release": "0.1", "places": places,
+                             **{name: rules[name] for name in told}, **rules["card"]}  # fmt: skip
+            case ["v1", "orders"]:
+                return 200, {"orders": rules["orders"]}
+            case ["v1", "usage"]:
+                today = {"calls": 1, "money": rules["money"]}
+                return 200, {"model": rules["model"], "currency": "USD", "today": today,
+                             "day": time.strftime("%Y-%m-%d", time.gmtime())}  # fmt: skip
             case ["v1", "people"]:
                 return 200, {"you": {"id": "fleet", "role": rules["role"]}}
             case ["v1", "robot"]:
-                return 200, {"status": {"mode": "active"}, "room": "hall", "map_id": MAP}
+                status = {"mode": "active", "drive": {"battery": rules["battery"]}}
+                return 200, {"status": status, "room": rules["room"], "map_id": rules["map_id"]}
             case ["v1", "goals"]:
                 after, limit = int(query.get("after", ["0"])[0]), int(query["limit"][0])
                 return 200, journal.changes(after, limit)

@@ -1,0 +1,102 @@
+"""Stop robots of a fleet: noted first, sent to all at once, and repeated until each confirms.
+
+A stop waits for no database: where none takes it, it goes out by the wires alone and is owed.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import uuid
+from typing import TYPE_CHECKING, Any
+
+from sqlalchemy.exc import SQLAlchemyError
+
+from fleet.addressee import is_stop, read_addressee, to_names
+from fleet.link import RobotAway, RobotBusy, RobotRefusal
+from fleet.watch import SOURCE, STOP_S
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from fleet.desk import Desk
+
+log = logging.getLogger(__name__)
+
+NOTE_S = 2.0
+"""A stop waits no longer for its row."""
+
+
+class Stops:
+    """Ring the robots' stops, and tell who has confirmed."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._desk = desk
+
+    def robots_of(self, text: str) -> tuple[str, ...] | None:
+        """Return whom a sentence stops; None: it is no bare stop."""
+        addressee, order = read_addressee(text, self._desk.watches)
+        if not is_stop(order):
+            return None
+        named = addressee is not None and addressee.way in ("named", "each")
+        return (
+            addressee.names
+            if addressee is not None and named
+            else tuple(sorted(self._desk.watches))
+        )
+
+    async def stop(self, names: Sequence[str] | None) -> dict[str, Any]:
+        """Stop these robots, or all, and tell who has confirmed. It is repeated to the others.
+
+        Raises:
+            FleetError: ``unknown_robot``.
+        """
+        known = tuple(sorted(self._desk.watches))
+        asked = known if names is None else to_names(names, known)
+        stop_id, is_all = f"s-{uuid.uuid4().hex[:20]}", set(asked) == set(known)
+        try:
+            noting = asyncio.to_thread(self._desk.store.stop, stop_id, asked, forever=is_all)
+            ended = await asyncio.wait_for(noting, NOTE_S)
+        except (SQLAlchemyError, TimeoutError):  # a stop waits for no disk
+            return await self._stop_unwritten(stop_id, asked, forever=is_all)
+        acts = [asyncio.create_task(self._stop_robot(name)) for name in asked]
+        if acts:
+            await asyncio.wait(acts, timeout=STOP_S)
+        self._desk.wake([*ended, *self._desk.running])
+        confirmed, missing = await asyncio.to_thread(self._desk.store.stop_state, stop_id)
+        return _tell_stop(stop_id, confirmed, missing)
+
+    async def state(self, stop_id: str) -> dict[str, Any]:
+        """Tell who has confirmed a stop by now."""
+        return _tell_stop(stop_id, *await asyncio.to_thread(self._desk.store.stop_state, stop_id))
+
+    async def _stop_robot(self, name: str) -> None:
+        try:
+            await self._desk.watches[name].stop_now()
+        except (RobotAway, RobotBusy, RobotRefusal, SQLAlchemyError) as trouble:
+            log.warning("stop of %s: %s", name, trouble)
+        self._desk.watches[name].nudge()  # it is repeated there until confirmed
+
+    async def _stop_unwritten(
+        self, stop_id: str, names: Sequence[str], *, forever: bool
+    ) -> dict[str, Any]:
+        """Stop by the wires alone, where the database is away; its row is owed."""
+        acts = {}
+        for name in names:
+            self._desk.watches[name].is_ready = False  # nothing is offered before the row is there
+            acts[name] = self._desk.watches[name].link.post("/v1/stop", {"source": SOURCE})
+        done = await asyncio.gather(*acts.values(), return_exceptions=True)
+        heard = [name for name, answer in zip(acts, done, strict=True) if isinstance(answer, dict)]
+        self._desk.store.owe_stop(stop_id, names, forever=forever, heard=heard)
+        return _tell_stop(stop_id, heard, [name for name in names if name not in heard])
+
+
+def _tell_stop(stop_id: str, confirmed: list[str], missing: list[str]) -> dict[str, Any]:
+    """Say who has confirmed a stop: "7 of 8 confirmed, r4 not reached"."""
+    count, names = f"{len(confirmed)} of {len(confirmed) + len(missing)}", ", ".join(missing)
+    english = f"{count} confirmed" + (f", {names} not reached" if missing else "")
+    chinese = f"{len(confirmed) + len(missing)} 台中 {len(confirmed)} 台已确认" + (
+        f"，未联系上 {names}" if missing else ""
+    )
+    return {"id": stop_id, "confirmed": confirmed, "not_reached": missing,
+            "message": {"en": english, "zh": chinese}}  # fmt: skip
