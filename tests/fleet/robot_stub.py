@@ -40,6 +40,7 @@ class Journal:
         self.rules: dict[str, Any] = {
             "work_s": 0.05, "lose_answers": 0, "ask": False, "token": "", "id": name,
             "length_m": 5.0, "refuse": None, "role": "dispatcher", "places": ["kitchen", "hall"],
+            "evil": None,
         }  # fmt: skip
         self.disk = sqlite3.connect(
             folder / f"{name}.journal", check_same_thread=False, isolation_level=None
@@ -179,7 +180,39 @@ class Door(BaseHTTPRequestHandler):
                 rules["lose_answers"] -= 1
                 self.close_connection = True
                 return None
+        if rules["evil"]:
+            return self._answer_evil(rules["evil"], parts.path, content)
         return self._answer(status, content)
+
+    def _answer_evil(self, how: str, path: str, content: dict[str, Any]) -> None:
+        """Answer as a robot that was taken over, or as what is no robot at all."""
+        changes, never = path == "/v1/goals" and "goals" in content, {"x": [float("nan")]}
+        if how in ("endless", "slow"):
+            self.send_response(200)
+            self.send_header("transfer-encoding", "chunked")
+            self.end_headers()
+            piece = b"10000\r\n" + b" " * 65_536 if how == "endless" else b"1\r\n "
+            while True:
+                self.wfile.write(piece + b"\r\n")
+                time.sleep(0.0 if how == "endless" else 0.5)
+        if how == "html":
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(b"<html>" + b"x" * 5_000_000)
+            self.close_connection = True
+            return None
+        if how == "cursor" and changes:
+            content["next"] = "abc"
+        elif how == "pages" and changes:
+            record = {"id": "another's", "state": "succeeded"}
+            content = {"goals": [record] * 30, "next": 2**40}
+        elif how == "goals" and path.startswith("/v1/goals"):
+            content = {**content, "id": 7, "state": never, "goals": [never], "next": -1}
+        elif how == "status" and path == "/v1/robot":
+            content = {"status": "fine", "room": never}
+        elif how == "another":
+            content = {**content, "robot_id": "honest0"}
+        return self._answer(200, content)
 
     def _act(
         self, path: str, query: dict[str, list[str]], body: dict[str, Any] | None

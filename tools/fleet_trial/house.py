@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "sites" / "two_room"
-PATIENCE_S = 120.0
+PATIENCE_S = 400.0
 _PR_SET_PDEATHSIG = 1  # prctl(2)
 
 
