@@ -68,7 +68,7 @@ def judge(accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database
             lost.append(number)
         elif not states <= ENDED:
             open_.append(number)
-        elif told and told != states and not states <= {"given_up"}:
+        elif states != {"given_up"} and (states != told if told else "succeeded" in states):
             wrong.append(number)
     began = {number: sum(b for _, b in found.values()) for number, found in goals.items()}
     return Verdict(
