@@ -1,8 +1,9 @@
 """Be a robot's door to a fleet: a real server with a real journal on disk, which may be killed.
 
-``python -m tests.fleet.robot_stub FOLDER NAME PORT``. It shares no code with Pons. Its journal says
-what was begun, so that a judge who reads the file alone can tell whether anything was done twice.
-POST /stub changes how it behaves: to lose answers, to work for longer, to ask, to want a token.
+``python -m tests.fleet.robot_stub FOLDER NAME PORT [HOST PEM]``. It shares no code with Pons. Its
+journal says what was begun, so that a judge who reads the file alone can tell whether anything was
+done twice. POST /stub changes how it behaves: to lose answers, to work for longer, to ask, to want
+a token, to be hostile.
 """
 
 from __future__ import annotations
@@ -275,12 +276,13 @@ class Server(ThreadingHTTPServer):
 
 
 def make_server(
-    folder: Path, name: str, port: int, tls: ssl.SSLContext | None = None, authority: bytes = b""
-) -> Server:
+    folder: Path, name: str, port: int, tls: ssl.SSLContext | None = None, authority: bytes = b"",
+    host: str = "127.0.0.1",
+) -> Server:  # fmt: skip
     """Return a robot's server, its journal taken up."""
     journal = Journal(folder, name)
     server = Server(
-        ("127.0.0.1", port), type("OwnDoor", (Door,), {"journal": journal, "authority": authority})
+        (host, port), type("OwnDoor", (Door,), {"journal": journal, "authority": authority})
     )
     if tls is not None:
         server.socket = tls.wrap_socket(server.socket, server_side=True)
@@ -297,7 +299,11 @@ def make_server(
 
 def main() -> None:
     folder, name, port = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
-    server = make_server(folder, name, port)
+    host, tls = "127.0.0.1", None
+    if len(sys.argv) > 4:
+        host, tls = sys.argv[4], ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        tls.load_cert_chain(sys.argv[5])
+    server = make_server(folder, name, port, tls, host=host)
     print(server.server_address[1], flush=True)
     parent = os.getppid()
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import asyncio
+import signal
 import sys
 import tempfile
 from contextlib import suppress
@@ -29,13 +30,16 @@ def main(words: list[str] | None = None) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     try:
         return asyncio.run(_try(given, folder.absolute()))
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, asyncio.CancelledError):
         kept = f"; --folder {folder} goes on" if given.folder else ""
         print(f"\nbroken off; all processes are ended{kept}")
         return INTERRUPTED
 
 
 async def _try(given: argparse.Namespace, folder: Path) -> int:
+    if (whole := asyncio.current_task()) is not None:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            asyncio.get_running_loop().add_signal_handler(number, whole.cancel)
     house, is_done = House(folder, given.robots, given.database), False
     try:
         await house.start()

@@ -228,7 +228,7 @@ class House:
         with (self.folder / "fleet.log").open("ab") as log:
             self._service = subprocess.Popen(
                 child_command("fleet", "up"), cwd=ROOT, env=self._environment, stdout=log,
-                stderr=log,
+                stderr=log, start_new_session=True,  # its share of a busy machine is its own
             )  # fmt: skip
 
     def kill_service(self) -> None:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from wire import Status
 
 load_network()  # before robots are forked: they share it
-POLL_S = 0.025
+POLL_S = 0.05
 STATUS_S = 0.15
 STEPS = 12
 """Of 25 mm each, in one status: four times as fast as a robot, so that a drive takes 1 to 3 s."""
