@@ -134,7 +134,7 @@ class Storm:
             async with self._locks.setdefault(lock, asyncio.Lock()):
                 await self._kill(kind, robot, chance)
         elif kind == "cut":
-            cuts = self.weather.cuts_s
+            cuts = sorted(self.weather.cuts_s, reverse=True)
             seconds, how = cuts[index * len(cuts) // self.weather.faults["cut"]], _hows(index)
             whole = [each for each in self.house.robots if not each.wire.is_cut]
             await chance.choice(whole).wire.cut(how, seconds)
