@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import ssl
 from dataclasses import dataclass, field
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 
+from fleet.answers import check_answer
 from fleet.card import read_card
 from fleet.errors import FleetError
 
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
     from fleet.pin import Pin
 
 TIMEOUT = httpx.Timeout(5.0, connect=2.0)
+WHOLE_S = 10.0
+"""For one answer to its last byte: httpx bounds each read alone, were it of one byte."""
 MAX_ANSWER_BYTES = 4_000_000
 TRY_AGAIN = frozenset({408, 429, 500, 502, 503, 504})
 TOKEN_REFUSED = frozenset({401, 403})
@@ -107,12 +111,15 @@ class FleetLink:
                 ``certificate_dates``).
         """  # fmt: skip
         headers = {"authorization": f"Bearer {self.token}"} if self.token else {}
+        headers["accept-encoding"] = "identity"
         if key:
             headers["idempotency-key"] = key
         try:
-            answer = await self._open_client().request(
-                method, path, params=dict(query or {}), json=body, headers=headers
-            )
+            async with asyncio.timeout(WHOLE_S):
+                status, raw = await self._fetch(method, path, query or {}, body, headers)
+        except TimeoutError:
+            self.is_proven = False
+            raise RobotAway(f"{self.url}: no whole answer in {WHOLE_S:g} s") from None
         except httpx.HTTPError as error:
             self.is_proven = False
             if (refused := _certificates_refusal(error)) is not None:
@@ -120,7 +127,30 @@ class FleetLink:
                 wrong = FleetError("certificate_dates" if dates else "pin_mismatch", name=self.name)
                 raise RobotRefusal(409, wrong.code, str(error), wrong.message) from None
             raise RobotAway(f"{self.url}: {str(error) or type(error).__name__}") from None
-        return self._judge(answer)
+        content = self._judge(status, raw)
+        try:
+            check_answer(method, path, content)
+        except ValueError as wrong:
+            raise RobotAway(
+                f"{self.url}: {method} {path} is answered by nonsense: {wrong}"
+            ) from None
+        return content
+
+    async def _fetch(
+        self, method: str, path: str, query: Mapping[str, Any], body: Mapping[str, Any] | None,
+        headers: Mapping[str, str],
+    ) -> tuple[int, bytes]:  # fmt: skip
+        """Return an answer's status and bytes; of one that is too long, too many by some."""
+        raw = bytearray()
+        asked = self._open_client().stream(
+            method, path, params=dict(query), json=body, headers=dict(headers)
+        )
+        async with asked as answer:
+            async for piece in answer.aiter_raw():  # unpacked here, a small one could be huge
+                raw += piece
+                if len(raw) > MAX_ANSWER_BYTES:
+                    break
+        return answer.status_code, bytes(raw)
 
     def _open_client(self) -> httpx.AsyncClient:
         if self._client is None:
@@ -130,24 +160,25 @@ class FleetLink:
             )  # fmt: skip
         return self._client
 
-    def _judge(self, answer: httpx.Response) -> Any:
+    def _judge(self, status: int, raw: bytes) -> Any:
         try:
-            if len(answer.content) > MAX_ANSWER_BYTES:
+            if len(raw) > MAX_ANSWER_BYTES:
                 raise ValueError("too long")
-            content = json.loads(answer.content)
-        except ValueError:
-            if answer.status_code in TRY_AGAIN:
-                raise RobotBusy(f"status {answer.status_code}") from None
+            content = json.loads(raw)
+        except (ValueError, RecursionError):
+            if status in TRY_AGAIN:
+                raise RobotBusy(f"status {status}") from None
             raise RobotAway(f"{self.url}: an answer that is no JSON") from None
-        if answer.is_success:
+        if 200 <= status < 300:
             return content
         problem = content if isinstance(content, dict) else {}
-        code = str(problem.get("code", f"http_{answer.status_code}"))[:64]
+        code = str(problem.get("code", f"http_{status}"))[:64]
         detail, told = str(problem.get("detail", ""))[:600], problem.get("message")
-        if answer.status_code in TRY_AGAIN:
+        if status in TRY_AGAIN:
             raise RobotBusy(f"{code}: {detail}")
-        told = told if isinstance(told, dict) else None
-        raise RobotRefusal(answer.status_code, code, detail, told)
+        told = told if isinstance(told, dict) else {}
+        told = {str(name)[:8]: text[:600] for name, text in told.items() if isinstance(text, str)}
+        raise RobotRefusal(status, code, detail, told)
 
 
 def _certificates_refusal(error: BaseException) -> ssl.SSLCertVerificationError | None:

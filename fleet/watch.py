@@ -33,7 +33,8 @@ METER_S = 10.0
 RECONCILE_S = 30.0
 """So often each open goal is asked for by its id: a cursor of a journal that was replaced tells
 nothing."""
-PAGE = 30
+PAGE, MOST_PAGES = 30, 10
+"""Of one round: a journal that never ends leaves the others their turns."""
 STOP_S = 2.0
 SOURCE = "fleet"
 CLOSING = {"points": [{"x_m": 0.0, "y_m": 0.0}], "map_id": "0" * 16, "language": "en",
@@ -189,14 +190,15 @@ class RobotWatch:
         if self._cursor is None:
             rows = await asyncio.to_thread(self._store.robots)
             self._cursor = next(row.cursor for row in rows if row.name == self.name)
-        while True:
+        for _ in range(MOST_PAGES):
+            before = self._cursor
             page = await self.link.get("/v1/goals", after=self._cursor, limit=PAGE)
             goals, cursor = page["goals"], int(page["next"])
             if goals or cursor != self._cursor:
                 touched = await asyncio.to_thread(self._store.apply_goals, self.name, goals, cursor)
                 self._cursor = cursor
                 self._wake(touched)
-            if len(goals) < PAGE:
+            if len(goals) < PAGE or not cursor > before:
                 break
         if time.monotonic() - self._reconciled_s > RECONCILE_S:
             for mission in await asyncio.to_thread(self._store.at_work, self.name):

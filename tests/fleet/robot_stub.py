@@ -1,8 +1,9 @@
 """Be a robot's door to a fleet: a real server with a real journal on disk, which may be killed.
 
-``python -m tests.fleet.robot_stub FOLDER NAME PORT``. It shares no code with Pons. Its journal says
-what was begun, so that a judge who reads the file alone can tell whether anything was done twice.
-POST /stub changes how it behaves: to lose answers, to work for longer, to ask, to want a token.
+``python -m tests.fleet.robot_stub FOLDER NAME PORT [HOST PEM]``. It shares no code with Pons. Its
+journal says what was begun, so that a judge who reads the file alone can tell whether anything was
+done twice. POST /stub changes how it behaves: to lose answers, to work for longer, to ask, to want
+a token, to be hostile.
 """
 
 from __future__ import annotations
@@ -45,6 +46,7 @@ class Journal:
             "camera": None, "site": "home", "map_id": MAP, "languages": ["en", "zh"],
             "room": "cellar", "battery": None, "orders": [], "does": "drives", "through": [],
             "model": None, "money": 0.0, "proof": False,
+            "evil": None,
         }  # fmt: skip
         self.disk = sqlite3.connect(
             folder / f"{name}.journal", check_same_thread=False, isolation_level=None
@@ -188,7 +190,39 @@ class Door(BaseHTTPRequestHandler):
                 rules["lose_answers"] -= 1
                 self.close_connection = True
                 return None
+        if rules["evil"]:
+            return self._answer_evil(rules["evil"], parts.path, content)
         return self._answer(status, content)
+
+    def _answer_evil(self, how: str, path: str, content: dict[str, Any]) -> None:
+        """Answer as a robot that was taken over, or as what is no robot at all."""
+        changes, never = path == "/v1/goals" and "goals" in content, {"x": [float("nan")]}
+        if how in ("endless", "slow"):
+            self.send_response(200)
+            self.send_header("transfer-encoding", "chunked")
+            self.end_headers()
+            piece = b"10000\r\n" + b" " * 65_536 if how == "endless" else b"1\r\n "
+            while True:
+                self.wfile.write(piece + b"\r\n")
+                time.sleep(0.0 if how == "endless" else 0.5)
+        if how == "html":
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(b"<html>" + b"x" * 5_000_000)
+            self.close_connection = True
+            return None
+        if how == "cursor" and changes:
+            content["next"] = "abc"
+        elif how == "pages" and changes:
+            record = {"id": "another's", "state": "succeeded"}
+            content = {"goals": [record] * 30, "next": 2**40}
+        elif how == "goals" and path.startswith("/v1/goals"):
+            content = {**content, "id": 7, "state": never, "goals": [never], "next": -1}
+        elif how == "status" and path == "/v1/robot":
+            content = {"status": "fine", "room": never}
+        elif how == "another":
+            content = {**content, "robot_id": "honest0"}
+        return self._answer(200, content)
 
     def _act(
         self, path: str, query: dict[str, list[str]], body: dict[str, Any] | None
@@ -267,12 +301,13 @@ class Server(ThreadingHTTPServer):
 
 
 def make_server(
-    folder: Path, name: str, port: int, tls: ssl.SSLContext | None = None, authority: bytes = b""
-) -> Server:
+    folder: Path, name: str, port: int, tls: ssl.SSLContext | None = None, authority: bytes = b"",
+    host: str = "127.0.0.1",
+) -> Server:  # fmt: skip
     """Return a robot's server, its journal taken up."""
     journal = Journal(folder, name)
     server = Server(
-        ("127.0.0.1", port), type("OwnDoor", (Door,), {"journal": journal, "authority": authority})
+        (host, port), type("OwnDoor", (Door,), {"journal": journal, "authority": authority})
     )
     if tls is not None:
         server.socket = tls.wrap_socket(server.socket, server_side=True)
@@ -289,7 +324,11 @@ def make_server(
 
 def main() -> None:
     folder, name, port = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
-    server = make_server(folder, name, port)
+    host, tls = "127.0.0.1", None
+    if len(sys.argv) > 4:
+        host, tls = sys.argv[4], ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        tls.load_cert_chain(sys.argv[5])
+    server = make_server(folder, name, port, tls, host=host)
     print(server.server_address[1], flush=True)
     parent = os.getppid()
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import re
+import subprocess
+import sys
 from dataclasses import replace
 
 import pytest
@@ -49,3 +51,16 @@ def test_each_code_that_is_raised_has_words() -> None:
         for code in re.findall(r'FleetError\(\s*"([a-z_]+)"', text)
     }
     assert raised <= set(WORDS)
+
+
+def test_a_robot_without_a_fleet_loads_nothing_of_it() -> None:
+    """Neither the fleet, nor its engine, nor its database's driver."""
+    code = (
+        "import sys, planner.__main__, planner.app, pons.__main__\n"
+        "kept = ('fleet', 'dbos', 'psycopg')\n"
+        "print([name for name in sys.modules if name.split('.')[0] in kept])"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert ran.stdout.strip().splitlines()[-1] == "[]"

@@ -1,0 +1,65 @@
+"""Let robots lie, stall and pour: the others' missions end as ever, and the service stays small."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+import psutil
+import pytest
+
+from tests.fleet.conftest import RunningFleet
+from tests.fleet.judge import judge
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from tests.fleet.conftest import StubRobot
+
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+EVIL = ("html", "endless", "slow", "cursor", "pages", "goals", "status", "another")
+GROWS_MB = 60.0
+
+
+@pytest.fixture
+def fleet(tmp_path: Path) -> Iterator[RunningFleet]:
+    running = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
+    yield running
+    running.kill()
+    running.client.close()
+
+
+def test_hostile_robots_harm_no_other(
+    fleet: RunningFleet, make_robot: Callable[[str], StubRobot]
+) -> None:
+    honest = [make_robot(f"honest{number}") for number in range(2)]
+    evil = [make_robot(how) for how in EVIL]
+    fleet.add(*honest, *evil)
+    fleet.start("fleet.watch.SILENT_S = 2.0")
+    fleet.await_ready(*honest, *evil)
+    assert fleet.process is not None
+    service = psutil.Process(fleet.process.pid)
+    for robot in evil:
+        robot.rule(evil=robot.name)
+    lured = [fleet.give(f"{robot.name}: go to the hall")[0]["id"] for robot in evil]
+    before_mb = service.memory_info().rss / 1e6
+    accepted: list[str] = []
+    for number in range(10):
+        for robot in honest:
+            accepted += [each["id"] for each in fleet.give(f"{robot.name}: go to the hall")]
+        fleet.give(f"nearest: go to the hall {number}")  # whoever goes, all are asked the way
+        time.sleep(1.0)
+    for mission_id in accepted:
+        fleet.await_state(mission_id, "succeeded")
+    states = fleet.states()
+    assert {states[robot.name] for robot in honest} == {"ready"}
+    told = {fleet.mission(mission_id)["state"] for mission_id in lured}
+    assert told <= {"waiting", "offered", "at_robot", "unknown", "succeeded"}
+    assert service.memory_info().rss / 1e6 - before_mb < GROWS_MB
+    assert (
+        fleet.client.post("/v1/stop", json={"robots": ["honest0", "honest1"]}).json()["not_reached"]
+        == []
+    )
+    verdict = judge(accepted, [robot.journal for robot in honest], fleet.database)
+    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
