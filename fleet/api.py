@@ -14,10 +14,11 @@ from starlette.exceptions import HTTPException
 from fleet.access import AccessDoor, problem
 from fleet.addressee import Addressee, to_names
 from fleet.errors import FleetError, tell
+from fleet.page_api import add_page
 from fleet.records import MissionRow, show_mission
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
+    from collections.abc import AsyncIterator, Callable
 
     from fastapi import Request
     from starlette.responses import Response
@@ -105,7 +106,7 @@ def build_app(desk: Desk, access: FleetAccess, url: str) -> ASGIApp:
     for kind in (FleetError, SQLAlchemyError, RequestValidationError, HTTPException):
         app.add_exception_handler(kind, _refuse)
     _robots(app, desk)
-    _missions(app, desk)
+    add_page(app, desk, _missions(app, desk))
     return AccessDoor(app, access)
 
 
@@ -131,7 +132,7 @@ def _robots(app: FastAPI, desk: Desk) -> None:
         return await desk.stop_state(stop_id)
 
 
-def _missions(app: FastAPI, desk: Desk) -> None:
+def _missions(app: FastAPI, desk: Desk) -> Callable[[MissionRow], dict[str, Any]]:
     def view(mission: MissionRow) -> dict[str, Any]:
         shown = show_mission(mission)
         if (waits_for := desk.dispatcher.waits_for(mission)) is not None:
@@ -177,6 +178,8 @@ def _missions(app: FastAPI, desk: Desk) -> None:
         """End a mission; its robot is told until it confirms."""
         asked = how or MissionCancel()
         return view(await desk.cancel(mission_id, give_up=asked.give_up))
+
+    return view
 
 
 async def _refuse(_: Request, error: Exception) -> Response:

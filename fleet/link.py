@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import ssl
 from dataclasses import dataclass, field
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 TIMEOUT = httpx.Timeout(5.0, connect=2.0)
 MAX_ANSWER_BYTES = 4_000_000
+WHOLE_S = 20.0
+"""So long may one answer take to come whole."""
 TRY_AGAIN = frozenset({408, 429, 500, 502, 503, 504})
 TOKEN_REFUSED = frozenset({401, 403})
 
@@ -98,20 +101,29 @@ class FleetLink:
             RobotBusy: it may be asked again.
             RobotRefusal: it said no, or shows another certificate (``pin_mismatch``).
         """  # fmt: skip
-        headers = {"authorization": f"Bearer {self.token}"} if self.token else {}
+        headers = {"accept-encoding": "identity"}  # what is squeezed may unfold to any size
+        if self.token:
+            headers["authorization"] = f"Bearer {self.token}"
         if key:
             headers["idempotency-key"] = key
         try:
-            answer = await self._open_client().request(
-                method, path, params=dict(query or {}), json=body, headers=headers
-            )
+            async with (
+                asyncio.timeout(WHOLE_S),
+                self._open_client().stream(
+                    method, path, params=dict(query or {}), json=body, headers=headers
+                ) as answer,
+            ):
+                raw = await _read(answer)
+        except TimeoutError:
+            self.is_proven = False
+            raise RobotAway(f"{self.url}: an answer that does not end") from None
         except httpx.HTTPError as error:
             self.is_proven = False
             if _is_certificates(error):
                 wrong = FleetError("pin_mismatch", name=self.name)
                 raise RobotRefusal(409, wrong.code, str(error), wrong.message) from None
             raise RobotAway(f"{self.url}: {str(error) or type(error).__name__}") from None
-        return self._judge(answer)
+        return self._judge(answer, raw)
 
     def _open_client(self) -> httpx.AsyncClient:
         if self._client is None:
@@ -121,12 +133,12 @@ class FleetLink:
             )  # fmt: skip
         return self._client
 
-    def _judge(self, answer: httpx.Response) -> Any:
+    def _judge(self, answer: httpx.Response, raw: bytes) -> Any:
         try:
-            if len(answer.content) > MAX_ANSWER_BYTES:
+            if len(raw) > MAX_ANSWER_BYTES:
                 raise ValueError("too long")
-            content = json.loads(answer.content)
-        except ValueError:
+            content = json.loads(raw)
+        except (ValueError, RecursionError):
             if answer.status_code in TRY_AGAIN:
                 raise RobotBusy(f"status {answer.status_code}") from None
             raise RobotAway(f"{self.url}: an answer that is no JSON") from None
@@ -139,6 +151,16 @@ class FleetLink:
             raise RobotBusy(f"{code}: {detail}")
         told = told if isinstance(told, dict) else None
         raise RobotRefusal(answer.status_code, code, detail, told)
+
+
+async def _read(answer: httpx.Response) -> bytes:
+    """Return an answer's body as it came, at most a little more than is accepted."""
+    raw = bytearray()
+    async for piece in answer.aiter_raw():
+        raw += piece
+        if len(raw) > MAX_ANSWER_BYTES:
+            break
+    return bytes(raw)
 
 
 def _is_certificates(error: BaseException) -> bool:
