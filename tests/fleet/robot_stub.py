@@ -7,6 +7,7 @@ POST /stub changes how it behaves: to lose answers, to work for longer, to ask, 
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 import os
@@ -23,6 +24,14 @@ from urllib.parse import parse_qs, urlsplit
 
 ENDED = ("succeeded", "failed", "refused", "cancelled")
 MAP = "00112233445566aa"
+MAPS: dict[str, Any] = {
+    "whole": {"map_id": MAP, "width": 60, "height": 40, "resolution_m": 0.1,
+              "origin": {"x_m": -1.0, "y_m": -1.0}, "growing": None,
+              "cells": base64.b64encode(bytes(60) + b"\x01" * 60 + bytes(60 * 38)).decode(),
+              "fence": {"allowed": [], "keep_outs": [], "speed_zones": []}},
+    "garbage": {"map_id": MAP, "width": 4e9, "height": "<b>", "cells": {"a": [None]}},
+    "endless": {},
+}  # fmt: skip
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS keys (key TEXT PRIMARY KEY, body TEXT, goal TEXT);
 CREATE TABLE IF NOT EXISTS goals (id TEXT PRIMARY KEY, text TEXT, state TEXT, record TEXT);
@@ -40,6 +49,7 @@ class Journal:
         self.rules: dict[str, Any] = {
             "work_s": 0.05, "lose_answers": 0, "ask": False, "token": "", "id": name,
             "length_m": 5.0, "refuse": None, "role": "dispatcher", "places": ["kitchen", "hall"],
+            "map": "whole", "question": "Which door?", "site": "home", "status": {},
         }  # fmt: skip
         self.disk = sqlite3.connect(
             folder / f"{name}.journal", check_same_thread=False, isolation_level=None
@@ -105,7 +115,8 @@ class Journal:
             if state == "queued":
                 self.since[goal_id] = time.monotonic()
                 if self.rules["ask"]:
-                    plan = {"kind": "clarify", "text": {"en": "Which door?", "zh": "哪扇门？"}}
+                    words = {"en": self.rules["question"], "zh": "哪扇门？"}
+                    plan = {"kind": "clarify", "text": words}
                     self.move(goal_id, "needs_clarification", plan=plan)
                 else:
                     self.move(goal_id, "running")
@@ -211,12 +222,16 @@ class Door(BaseHTTPRequestHandler):
             case ["v1", "capabilities"]:
                 places = [{"id": name, "name": {"en": name}, "pose": {"x_m": 1.0, "y_m": 0.0}}
                           for name in rules["places"]]  # fmt: skip
-                return 200, {"robot_id": rules["id"], "release": "0.1", "site": "home",
+                return 200, {"robot_id": rules["id"], "release": "0.1", "site": rules["site"],
                              "map_id": MAP, "places": places, "camera": None}  # fmt: skip
             case ["v1", "people"]:
                 return 200, {"you": {"id": "fleet", "role": rules["role"]}}
             case ["v1", "robot"]:
-                return 200, {"status": {"mode": "active"}, "room": "hall", "map_id": MAP}
+                status = {"mode": "ACTIVE", "drive": {"battery": 0.5},
+                          "base_in_map": {"x_m": 1.0, "y_m": 1.0, "yaw_rad": 0.5}}  # fmt: skip
+                return 200, {"status": rules["status"] or status, "room": "hall", "map_id": MAP}
+            case ["v1", "map"]:
+                return 200, MAPS[rules["map"]]
             case ["v1", "goals"]:
                 after, limit = int(query.get("after", ["0"])[0]), int(query["limit"][0])
                 return 200, journal.changes(after, limit)
@@ -226,12 +241,25 @@ class Door(BaseHTTPRequestHandler):
         return 404, problem("unknown_route")
 
     def _answer(self, status: int, content: dict[str, Any]) -> None:
+        if content is MAPS["endless"]:
+            self._answer_endlessly()
+            return
         raw = json.dumps(content).encode()
         self.send_response(status)
         self.send_header("content-type", "application/json")
         self.send_header("content-length", str(len(raw)))
         self.end_headers()
         self.wfile.write(raw)
+
+    def _answer_endlessly(self) -> None:
+        self.send_response(200)
+        self.send_header("content-length", str(100_000_000))
+        self.end_headers()
+        try:
+            for _ in range(100):
+                self.wfile.write(b"[" * 1_000_000)
+        except OSError:
+            self.close_connection = True
 
 
 class Server(ThreadingHTTPServer):
