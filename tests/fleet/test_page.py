@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import re
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -83,6 +84,12 @@ def open_page(browser: Browser, house: RunningFleet) -> Iterator[Callable[..., P
     assert complaints == []
 
 
+def add(house: RunningFleet, *robots: StubRobot) -> None:
+    """Add robots in a thread of its own: the browser's loop runs in this one."""
+    with ThreadPoolExecutor(1) as pool:
+        pool.submit(house.add, *robots).result()
+
+
 def state_of(page: Page, robot: str) -> str:
     return page.locator(f"[data-robot='{robot}'] .chip").first.inner_text()
 
@@ -119,7 +126,7 @@ def test_a_sentence_sends_the_right_robot_and_its_question_is_answered(
     near, far = make_robot("near"), make_robot("far")
     near.rule(length_m=1.0, ask=True)
     far.rule(length_m=9.0)
-    house.add(near, far)
+    add(house, near, far)
     page = open_page()
     expect(page.locator("#count")).to_have_text("2 of 2 robots answer")
     expect(page.locator(".robots .robot")).to_have_count(2)
@@ -143,7 +150,7 @@ def test_a_stop_of_all_names_who_is_not_reached_until_it_is(
     robots = [make_robot(name) for name in ("r1", "r2", "r3")]
     for robot in robots:
         robot.rule(work_s=600.0)
-    house.add(*robots)
+    add(house, *robots)
     (mission,) = house.give("r3: go to the kitchen")
     house.await_state(mission["id"], "at_robot")
     page = open_page(size=PHONE)
@@ -168,7 +175,7 @@ def test_a_viewer_may_look_and_stop_alone(
 ) -> None:
     robot = make_robot("r1")
     robot.rule(ask=True)
-    house.add(robot)
+    add(house, robot)
     (mission,) = house.give("r1: look at the door")
     house.await_state(mission["id"], "asking")
     page = open_page(VIEWER)
@@ -193,7 +200,7 @@ def test_a_hostile_robot_harms_no_other_and_writes_no_element(
     huge.rule(map="endless")
     garbage.rule(map="garbage", site=markup, question=markup, ask=True)
     odd.rule(status=["not", {"a": "status"}])
-    house.add(good, huge, garbage, odd)
+    add(house, good, huge, garbage, odd)
     house.give("garbage: look")
     page = open_page()
     expect(page.locator("[data-asks] .question-words")).to_have_text(markup, timeout=PATIENCE_MS)
@@ -223,7 +230,7 @@ def test_stop_is_in_view_and_axe_finds_nothing_in_every_state(
     robots = [make_robot(f"robot-with-a-long-name-{n}") for n in range(5)]
     robots[0].rule(ask=True, question="Shall I go through every room of the house? " * 40)
     robots[1].rule(work_s=600.0)
-    house.add(*robots)
+    add(house, *robots)
     for robot in robots:
         house.give(f"{robot.name}: go to the kitchen " + "and then to the hall " * 30)
     page.locator("[data-asks]").wait_for()
