@@ -12,7 +12,7 @@ ATTACK := .venv/.installed-attack
 EXTRAS := .venv/.installed-extras
 PAGE := web/dist/index.html
 PAGE_DEV := web/node_modules/.pons-dev
-PAGE_SOURCES := $(shell find web/src web/index.html web/vite.config.ts web/package-lock.json -type f)
+PAGE_SOURCES := $(shell find web/src web/index.html web/fleet.html web/vite.config.ts web/package-lock.json -type f)
 ARGS ?=
 # Tests start hundreds of processes, and packages are installed without bytecode: with this set, as
 # some images have it, each process would compile all that it imports anew (empty means: not set).

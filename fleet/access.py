@@ -14,16 +14,19 @@ from urllib.parse import urlsplit
 from starlette.responses import JSONResponse
 
 from fleet.errors import FleetError
+from pons_assets.built_page import SECURITY_HEADERS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from starlette.types import ASGIApp, Receive, Scope, Send
+    from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LOOPBACK_NAMES = frozenset({"127.0.0.1", "localhost", "::1"})
 READING = frozenset({"GET", "HEAD"})
 STOP_PATH = "/v1/stop"
-OPEN_PATHS = frozenset({"/healthz"})
+OPEN_PATHS = frozenset({"/healthz", "/"})
+PAGE_FILES = "/assets/"
+"""A page comes before its token, which stands behind the address's # where no server sees it."""
 MAX_BODY_BYTES = 256 * 1024
 MEDIA_TYPE = "application/problem+json"
 
@@ -37,8 +40,8 @@ class FleetAccess:
     viewer_token: str = ""
     speaks_tls: bool = False
 
-    def judge(self, method: str, path: str, headers: Mapping[str, str]) -> None:
-        """Accept a request.
+    def judge(self, method: str, path: str, headers: Mapping[str, str]) -> str:
+        """Accept a request, and return who asks: ``operator`` or ``viewer``.
 
         Raises:
             FleetError: by its code.
@@ -50,23 +53,25 @@ class FleetAccess:
         origin, scheme = headers.get("origin"), "https" if self.speaks_tls else "http"
         if origin is not None and origin != f"{scheme}://{host}":
             raise FleetError("foreign_origin", f"origin {origin[:80]!r}")
-        if path not in OPEN_PATHS:
-            self._judge_token(method, path, headers)
+        is_open = path in OPEN_PATHS or path.startswith(PAGE_FILES)
+        role = "viewer" if is_open else self._judge_token(method, path, headers)
         stops = path == STOP_PATH
         if method in READING or stops:
-            return
+            return role
         if headers.get("content-type", "").partition(";")[0].strip() != "application/json":
             raise FleetError("unsupported_media_type")
+        return role
 
-    def _judge_token(self, method: str, path: str, headers: Mapping[str, str]) -> None:
+    def _judge_token(self, method: str, path: str, headers: Mapping[str, str]) -> str:
         kind, _, token = headers.get("authorization", "").partition(" ")
         given = token.strip() if kind.lower() == "bearer" else ""
         if not self.operator_token or _is_same(given, self.operator_token):
-            return
+            return "operator"
         if not _is_same(given, self.viewer_token):
             raise FleetError("token_needed")
         if method not in READING and path != STOP_PATH:
             raise FleetError("operator_needed")
+        return "viewer"
 
 
 def _is_same(given: str, wanted: str) -> bool:
@@ -86,15 +91,30 @@ class AccessDoor:
             return
         headers = {k.decode("latin-1"): v.decode("latin-1") for k, v in scope["headers"]}
         try:
-            self._access.judge(scope["method"], scope["path"], headers)
+            role = self._access.judge(scope["method"], scope["path"], headers)
             length = headers.get("content-length", "0")
             is_chunked = "transfer-encoding" in headers
             if is_chunked or not (length.isdecimal() and int(length) <= MAX_BODY_BYTES):
                 raise FleetError("body_too_large")
         except FleetError as refused:
-            await problem(refused)(scope, receive, send)
+            await problem(refused)(scope, receive, _secured(send))
             return
-        await self._app(scope, receive, send)
+        scope["state"] = {**scope.get("state", {}), "role": role}
+        await self._app(scope, receive, _secured(send))
+
+
+def _secured(send: Send) -> Send:
+    """Return a way to send on which each answer gets the security headers."""
+
+    async def sending(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            given = list(message.get("headers", ()))
+            is_kept = any(name.lower() == b"cache-control" for name, _ in given)
+            unkept = () if is_kept else ((b"cache-control", b"no-store"),)
+            message["headers"] = [*given, *SECURITY_HEADERS, *unkept]
+        await send(message)
+
+    return sending
 
 
 def problem(error: FleetError) -> JSONResponse:

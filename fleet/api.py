@@ -15,6 +15,7 @@ from fleet.access import AccessDoor, problem
 from fleet.addressee import Addressee, to_names
 from fleet.errors import FleetError, tell
 from fleet.house_api import FleetBody, house_routes
+from fleet.page_api import add_page
 from fleet.records import MissionRow, show_mission
 
 if TYPE_CHECKING:
@@ -101,8 +102,10 @@ def build_app(desk: Desk, access: FleetAccess, url: str, lock: CarrierLock) -> A
     for kind in (FleetError, SQLAlchemyError, RequestValidationError, HTTPException):
         app.add_exception_handler(kind, _refuse)
     _robots(app, desk)
-    _missions(app, desk)
-    app.include_router(house_routes(desk, mission_view(desk)))
+    view = mission_view(desk)
+    _missions(app, desk, view)
+    app.include_router(house_routes(desk, view))
+    add_page(app, desk, view)
     return AccessDoor(app, access)
 
 
@@ -129,8 +132,7 @@ def _robots(app: FastAPI, desk: Desk) -> None:
         return await desk.stops.state(stop_id)
 
 
-def _missions(app: FastAPI, desk: Desk) -> None:
-    view = mission_view(desk)
+def _missions(app: FastAPI, desk: Desk, view: Callable[[MissionRow], dict[str, Any]]) -> None:
 
     @app.post("/v1/missions", status_code=202, operation_id="give_mission")
     async def give(new: NewMission, idempotency_key: Key = None) -> dict[str, Any]:

@@ -312,6 +312,10 @@ class Desk:
         """Return what has changed after a cursor."""
         return await asyncio.to_thread(self.store.changed_since, cursor, limit)
 
+    def rows(self) -> list[RobotRow]:
+        """Return the robots that are watched, by name."""
+        return [row for name, row in sorted(self._rows.items()) if name in self.watches]
+
     async def show_robots(self) -> list[dict[str, Any]]:
         """Return all robots as the API shows them."""
         held = await asyncio.to_thread(self.store.missions_at_robots)

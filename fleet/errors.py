@@ -40,6 +40,7 @@ WORDS: dict[str, tuple[int, str, str]] = {
     ),
     "body_too_large": (413, "The request is too long.", "请求太长。"),
     "invalid_request": (422, "The request is not understood: {why}.", "无法理解请求：{why}。"),
+    "unknown_map": (404, "No robot shows this map now.", "现在没有机器人使用这张地图。"),
     "unknown_route": (404, "There is no such address here.", "这里没有此地址。"),
     "no_order": (
         422,

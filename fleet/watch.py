@@ -248,7 +248,8 @@ def mission_body(mission: MissionRow) -> dict[str, Any]:
 
 def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> dict[str, Any]:
     """Return a robot as the API shows it."""
-    card, status = robot.capabilities, watch.told.get("status") or {}
+    card, status = robot.capabilities, watch.told.get("status")
+    status = status if isinstance(status, dict) else {}
     return {
         "name": robot.name, "robot_id": robot.robot_id, "url": robot.url,
         "state": "ready" if watch.is_ready else watch.trouble or "connecting",

@@ -19,6 +19,7 @@ from planner.api.crowd import address_of
 from planner.api.problems import response
 from planner.people import ASKER
 from planner.voice import MAX_BYTES
+from pons_assets.built_page import SECURITY_HEADERS
 
 if TYPE_CHECKING:
     from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -38,25 +39,6 @@ FORGIVEN_S = 10.0
 """For so long without a guess, one is forgiven."""
 MOST_ADDRESSES = 1_024
 LOG_S = 10.0
-
-_HEADERS = (
-    (b"x-content-type-options", b"nosniff"),
-    (b"referrer-policy", b"no-referrer"),
-    (b"x-frame-options", b"DENY"),
-    (b"cross-origin-resource-policy", b"same-origin"),
-    (
-        b"permissions-policy",
-        b"microphone=(self), camera=(), display-capture=(), geolocation=(), payment=(), usb=()",
-    ),
-    (
-        b"content-security-policy",
-        (
-            b"default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-            b"connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-        ),
-    ),
-)
-
 
 _UNSTORED = (b"cache-control", b"no-store")
 """What no route says otherwise of is true for this moment, and may be the owner's alone."""
@@ -116,7 +98,7 @@ def _add_headers(send: Send) -> Send:
         if message["type"] == "http.response.start":
             given = list(message.get("headers", ()))
             kept = any(name.lower() == b"cache-control" for name, _ in given)
-            message["headers"] = [*given, *_HEADERS, *(() if kept else (_UNSTORED,))]
+            message["headers"] = [*given, *SECURITY_HEADERS, *(() if kept else (_UNSTORED,))]
         await send(message)
 
     return sending

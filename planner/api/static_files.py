@@ -1,43 +1,23 @@
-"""Serve the built page from memory. Read whole at the start: no request reaches the disk, and none
-can name a file that the build did not make.
-
-Files under /assets carry a hash in their names and never change, so browsers may keep them for
-good; the page itself is asked for anew each time.
-"""
+"""Serve the built page (``pons_assets.built_page``), and the authority's certificate."""
 
 from __future__ import annotations
 
-import gzip
-import hashlib
-import logging
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from fastapi import APIRouter, Header
 from starlette.exceptions import HTTPException
 from starlette.responses import HTMLResponse, Response
 
 from planner.api.access import AUTHORITY_PATH
+from pons_assets.built_page import ANEW, load_page
 
-log = logging.getLogger(__name__)
+if TYPE_CHECKING:
+    from pathlib import Path
 
-MAX_PAGE_BYTES = 8_000_000
-FOREVER = "public, max-age=31536000, immutable"
-ANEW = "no-cache"
+    from pons_assets.built_page import Asset
+
 CERTIFICATE_TYPE = "application/x-x509-ca-cert"
 """A phone that is sent this offers to install it."""
-
-TYPES = {
-    ".html": "text/html; charset=utf-8",
-    ".js": "text/javascript; charset=utf-8",
-    ".css": "text/css; charset=utf-8",
-    ".svg": "image/svg+xml",
-    ".png": "image/png",
-    ".json": "application/json",
-    ".woff2": "font/woff2",
-}
-SQUEEZED = frozenset({".html", ".js", ".css", ".svg", ".json"})
 
 NOT_BUILT = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Pons: the page is not built</title></head><body>
@@ -57,45 +37,24 @@ Accepts = Annotated[str, Header(alias="accept-encoding")]
 Known = Annotated[str, Header(alias="if-none-match")]
 
 
-@dataclass(frozen=True, slots=True)
-class Asset:
-    """Hold one file, plain and squeezed."""
-
-    media_type: str
-    plain: bytes
-    squeezed: bytes | None
-    etag: str
-    keep: str
-
-    def answer(self, accepts: str, known: str) -> Response:
-        """Return the file, or 304 where the browser has it."""
-        headers = {"cache-control": self.keep, "etag": self.etag, "vary": "accept-encoding"}
-        if self.etag in known:
-            return Response(None, 304, headers)
-        if self.squeezed is not None and "gzip" in accepts.lower():
-            headers["content-encoding"] = "gzip"
-            return Response(self.squeezed, 200, headers, self.media_type)
-        return Response(self.plain, 200, headers, self.media_type)
-
-
 def routes(folder: Path, authority: bytes = b"") -> APIRouter:
     """Return the page's routes, and the one of the authority's certificate."""
     router = APIRouter(include_in_schema=False)
-    assets = load(folder)
+    assets = load_page(folder)
     index = assets.get("index.html")
 
     @router.get("/", response_model=None)
     async def page(accepts: Accepts = "", known: Known = "") -> Response:
         if index is None:
             return HTMLResponse(NOT_BUILT, headers={"cache-control": ANEW})
-        return index.answer(accepts, known)
+        return _answer(index, accepts, known)
 
     @router.get("/assets/{name}", response_model=None)
     async def asset(name: str, accepts: Accepts = "", known: Known = "") -> Response:
         found = assets.get(f"assets/{name}")
         if found is None:
             raise HTTPException(404, "the built page has no such file")
-        return found.answer(accepts, known)
+        return _answer(found, accepts, known)
 
     @router.get(AUTHORITY_PATH, response_model=None)
     async def certificate() -> Response:
@@ -106,27 +65,6 @@ def routes(folder: Path, authority: bytes = b"") -> APIRouter:
     return router
 
 
-def load(folder: Path) -> dict[str, Asset]:
-    """Return the built page's files by their path; none where it is not built."""
-    if not (folder / "index.html").is_file():
-        log.warning("the page is not built (no %s); `make page` builds it", folder / "index.html")
-        return {}
-    found: dict[str, Asset] = {}
-    total = 0
-    for path in sorted(folder.rglob("*")):
-        if path.suffix not in TYPES or path.is_symlink() or not path.is_file():
-            continue
-        data = path.read_bytes()
-        if not total + len(data) <= MAX_PAGE_BYTES:
-            log.error("%s is not served: the page passes %d bytes with it", path, MAX_PAGE_BYTES)
-            continue
-        total += len(data)
-        name = path.relative_to(folder).as_posix()
-        found[name] = _asset(path.suffix, data, FOREVER if name.startswith("assets/") else ANEW)
-    return found
-
-
-def _asset(suffix: str, data: bytes, keep: str) -> Asset:
-    squeezed = gzip.compress(data, 9, mtime=0) if suffix in SQUEEZED else None
-    etag = f'"{hashlib.sha256(data).hexdigest()[:24]}"'
-    return Asset(TYPES[suffix], data, squeezed, etag, keep)
+def _answer(asset: Asset, accepts: str, known: str) -> Response:
+    status, headers, body = asset.answer(accepts, known)
+    return Response(body, status, headers)

@@ -121,7 +121,7 @@ class RunningFleet:
 
     def start(self, *settings: str) -> None:
         """Start it, with constants set to others: ``fleet.watch.SILENT_S = 1.0``."""
-        lines = ["import fleet.watch, fleet.workflow, fleet.__main__", *settings]
+        lines = ["import fleet.page_maps, fleet.watch, fleet.workflow, fleet.__main__", *settings]
         code = "\n".join([*lines, "fleet.__main__.main(['up'])"])
         self.process = subprocess.Popen(
             [sys.executable, "-c", code], cwd=ROOT, env=self.environment

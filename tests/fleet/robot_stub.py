@@ -8,6 +8,7 @@ a token, to be hostile.
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 import os
@@ -25,6 +26,14 @@ from urllib.parse import parse_qs, urlsplit
 ENDED = ("succeeded", "failed", "refused", "cancelled")
 MAP = "00112233445566aa"
 OUTLINES = {"kitchen": [[0, 0], [4, 0], [4, 4], [0, 4]], "hall": [[4, 0], [8, 0], [8, 4], [4, 4]]}
+MAPS: dict[str, Any] = {
+    "whole": {"map_id": MAP, "width": 60, "height": 40, "resolution_m": 0.1,
+              "origin": {"x_m": -1.0, "y_m": -1.0}, "growing": None,
+              "cells": base64.b64encode(bytes(60) + b"\x01" * 60 + bytes(60 * 38)).decode(),
+              "fence": {"allowed": [], "keep_outs": [], "speed_zones": []}},
+    "garbage": {"map_id": MAP, "width": 4e9, "height": "<b>", "cells": {"a": [None]}},
+    "endless": {},
+}  # fmt: skip
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS keys (key TEXT PRIMARY KEY, body TEXT, goal TEXT);
 CREATE TABLE IF NOT EXISTS goals (id TEXT PRIMARY KEY, text TEXT, state TEXT, record TEXT);
@@ -47,6 +56,7 @@ class Journal:
             "room": "cellar", "battery": None, "orders": [], "does": "drives", "through": [],
             "model": None, "money": 0.0, "proof": False,
             "evil": None,
+            "map": "whole", "question": "Which door?", "status": {},
         }  # fmt: skip
         self.disk = sqlite3.connect(
             folder / f"{name}.journal", check_same_thread=False, isolation_level=None
@@ -114,7 +124,8 @@ class Journal:
             if state == "queued":
                 self.since[goal_id] = time.monotonic()
                 if self.rules["ask"]:
-                    plan = {"kind": "clarify", "text": {"en": "Which door?", "zh": "哪扇门？"}}
+                    words = {"en": self.rules["question"], "zh": "哪扇门？"}
+                    plan = {"kind": "clarify", "text": words}
                     self.move(goal_id, "needs_clarification", plan=plan)
                 else:
                     self.move(goal_id, "running")
@@ -274,8 +285,12 @@ class Door(BaseHTTPRequestHandler):
             case ["v1", "people"]:
                 return 200, {"you": {"id": "fleet", "role": rules["role"]}}
             case ["v1", "robot"]:
-                status = {"mode": "active", "drive": {"battery": rules["battery"]}}
-                return 200, {"status": status, "room": rules["room"], "map_id": rules["map_id"]}
+                status = {"mode": "ACTIVE", "drive": {"battery": rules["battery"]},
+                          "base_in_map": {"x_m": 1.0, "y_m": 1.0, "yaw_rad": 0.5}}  # fmt: skip
+                return 200, {"status": rules["status"] or status, "room": rules["room"],
+                             "map_id": rules["map_id"]}  # fmt: skip
+            case ["v1", "map"]:
+                return 200, MAPS[rules["map"]]
             case ["v1", "goals"]:
                 after, limit = int(query.get("after", ["0"])[0]), int(query["limit"][0])
                 return 200, journal.changes(after, limit)
@@ -285,12 +300,25 @@ class Door(BaseHTTPRequestHandler):
         return 404, problem("unknown_route")
 
     def _answer(self, status: int, content: dict[str, Any]) -> None:
+        if content is MAPS["endless"]:
+            self._answer_endlessly()
+            return
         raw = json.dumps(content).encode()
         self.send_response(status)
         self.send_header("content-type", "application/json")
         self.send_header("content-length", str(len(raw)))
         self.end_headers()
         self.wfile.write(raw)
+
+    def _answer_endlessly(self) -> None:
+        self.send_response(200)
+        self.send_header("content-length", str(100_000_000))
+        self.end_headers()
+        try:
+            for _ in range(100):
+                self.wfile.write(b"[" * 1_000_000)
+        except OSError:
+            self.close_connection = True
 
 
 class Server(ThreadingHTTPServer):

@@ -5,7 +5,7 @@ import { ApiError } from "../src/net/api";
 import { told } from "../src/panels/events";
 import { reasons } from "../src/panels/reasons";
 import { reasonWords } from "../src/panels/steps";
-import { explain } from "../src/state/acts";
+import { explain } from "../src/state/note";
 import type { LogEntry } from "../src/state/model";
 import type { Status } from "../src/wire/types";
 import { status } from "./examples";

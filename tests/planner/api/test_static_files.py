@@ -10,7 +10,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner.api import Access, build
-from planner.api.static_files import MAX_PAGE_BYTES, load
+from pons_assets.built_page import MAX_PAGE_BYTES, load_page
 from tests.planner.api.fakes import FakeServices
 
 BASE = "http://127.0.0.1:8420"
@@ -117,7 +117,7 @@ def test_links_and_what_is_too_much_are_left_out(folder: Path, tmp_path: Path) -
     secret.write_text("key")
     (folder / "assets" / "link.js").symlink_to(secret)
     (folder / "assets" / "zz.js").write_bytes(b"x" * (MAX_PAGE_BYTES + 1))
-    assert sorted(load(folder)) == ["assets/index-abc123.js", "index.html"]
+    assert sorted(load_page(folder)) == ["assets/index-abc123.js", "index.html"]
 
 
 def test_the_page_needs_no_token_and_what_it_asks_for_does(folder: Path) -> None:

@@ -11,13 +11,14 @@ const CATALOGUES: Record<Language, Record<Key, string>> = { en, zh };
 
 export const language = signal<Language>("en");
 
-export function startLanguage(): void {
+/** Begin in the person's language; `title` names the page. */
+export function startLanguage(title: () => string = () => t("page.title")): void {
   const kept = localStorage.getItem(SLOT);
   const wanted = kept ?? navigator.language;
   language.value = wanted.toLowerCase().startsWith("zh") ? "zh" : "en";
   effect(() => {
     document.documentElement.lang = language.value === "zh" ? "zh-CN" : "en";
-    document.title = t("page.title");
+    document.title = title();
   });
 }
 

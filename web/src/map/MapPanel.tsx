@@ -7,7 +7,8 @@ import { say, t } from "../i18n";
 import { fixed, seconds, when } from "../panels/format";
 import { toTeaching } from "../panels/Tabs";
 import { followGhost } from "../rehearse/ghost";
-import { give, tell } from "../state/acts";
+import { give } from "../state/acts";
+import { tell } from "../state/note";
 import { startArrivals, toGo } from "../state/arrival";
 import { fresh } from "../state/moment";
 import { picked, picking, pointAsked } from "../state/picking";
@@ -54,7 +55,8 @@ import type { Pose } from "../wire/types";
 import type { Camera } from "./camera";
 import { Cells } from "./cells";
 import { isShown, LAYERS, toggleLayer } from "./layers";
-import { MapButtons, STEP_RAD, STEP_ZOOM } from "./MapButtons";
+import { seenOtherwise } from "./keys";
+import { MapButtons } from "./MapButtons";
 import { MarkList, MapTools } from "./MapTools";
 import { headingTo, stepped } from "./outline";
 import { PointMenu, type Target } from "./PointMenu";
@@ -236,21 +238,6 @@ function closingByEscape(): () => void {
   };
   addEventListener("keydown", close);
   return () => removeEventListener("keydown", close);
-}
-
-/** Turn and zoom by keys of their own, as the buttons do. */
-function seenOtherwise(view: MapView, key: string): boolean {
-  const acts: Readonly<Record<string, () => void>> = {
-    "[": () => view.turn(-STEP_RAD),
-    "]": () => view.turn(STEP_RAD),
-    n: () => view.turn(null),
-    "+": () => view.zoom(STEP_ZOOM),
-    "=": () => view.zoom(STEP_ZOOM),
-    "-": () => view.zoom(1 / STEP_ZOOM),
-    "0": () => view.fit(),
-  };
-  acts[key]?.();
-  return key in acts;
 }
 
 /** Move the crosshair by the arrow keys; Enter does there what a click would. */

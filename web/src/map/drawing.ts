@@ -75,6 +75,29 @@ function make<K extends keyof SVGElementTagNameMap>(
   return element;
 }
 
+/** Return a robot's disc, with a wedge to the front. */
+function bodyOf(radius: number): SVGElement[] {
+  const nose = `M${radius * 0.95} 0L${-radius * 0.35} ${radius * 0.55}L${-radius * 0.1} 0L${
+    -radius * 0.35
+  } ${-radius * 0.55}Z`;
+  return [
+    make("circle", { class: "halo", r: String(radius * 1.7) }),
+    make("circle", { class: "disc", r: String(radius) }),
+    make("path", { class: "nose", d: nose }),
+  ];
+}
+
+const placed = ({ x_m, y_m }: Pose, degrees: number): string =>
+  `translate(${x_m}px, ${y_m}px) rotate(${degrees}deg)`;
+
+/** One of several robots on a map. */
+export type Body = {
+  readonly id: string;
+  readonly pose: Pose;
+  readonly radius: number;
+  readonly stale: boolean;
+};
+
 function layer(name: string, ...content: readonly SVGElement[]): SVGSVGElement {
   const svg = make("svg", { class: name, "aria-hidden": "true" });
   const up = make("g", { transform: "scale(1,-1)" });
@@ -101,6 +124,11 @@ export class Drawing {
   private cellSize = 0.05;
   private readonly robot = make("g", { class: "robot" });
   private degrees = 0;
+  private readonly all = make("g", { class: "robots" });
+  private readonly bodies = new Map<
+    string,
+    { readonly element: SVGGElement; readonly degrees: number; readonly radius: number }
+  >();
   /** From the lowest up; all cover the same. */
   readonly layers: readonly SVGSVGElement[] = [
     layer("layer", this.walls),
@@ -118,7 +146,7 @@ export class Drawing {
       this.guesses,
       this.picked,
     ),
-    layer("layer", this.robot),
+    layer("layer", this.robot, this.all),
   ];
 
   constructor() {
@@ -168,23 +196,34 @@ export class Drawing {
     this.zones.setAttribute("d", closed(speed_zones.map((zone) => zone.polygon)));
   }
 
-  /** Draw the robot's disc, with a wedge to the front. */
   showBody(radius: number): void {
-    const nose = `M${radius * 0.95} 0L${-radius * 0.35} ${radius * 0.55}L${-radius * 0.1} 0L${
-      -radius * 0.35
-    } ${-radius * 0.55}Z`;
-    this.robot.replaceChildren(
-      make("circle", { class: "halo", r: String(radius * 1.7) }),
-      make("circle", { class: "disc", r: String(radius) }),
-      make("path", { class: "nose", d: nose }),
-    );
+    this.robot.replaceChildren(...bodyOf(radius));
   }
 
   showRobot(pose: Pose | null): void {
     this.robot.style.display = pose ? "" : "none";
     if (!pose) return;
     this.degrees = unwound(this.degrees, (pose.yaw_rad * 180) / Math.PI);
-    this.robot.style.transform = `translate(${pose.x_m}px, ${pose.y_m}px) rotate(${this.degrees}deg)`;
+    this.robot.style.transform = placed(pose, this.degrees);
+  }
+
+  /** Draw these robots and no others, beside the one that a robot's own page shows. */
+  showBodies(bodies: readonly Body[]): void {
+    const before = new Map(this.bodies);
+    for (const { id, pose, radius, stale } of bodies) {
+      const known = this.bodies.get(id) ?? { element: make("g", {}), degrees: 0, radius: 0 };
+      if (known.radius !== radius) known.element.replaceChildren(...bodyOf(radius));
+      const degrees = unwound(known.degrees, (pose.yaw_rad * 180) / Math.PI);
+      known.element.setAttribute("class", stale ? "robot stale" : "robot");
+      known.element.dataset.robot = id;
+      known.element.style.transform = placed(pose, degrees);
+      if (!before.delete(id)) this.all.append(known.element);
+      this.bodies.set(id, { element: known.element, degrees, radius });
+    }
+    for (const [id, { element }] of before) {
+      element.remove();
+      this.bodies.delete(id);
+    }
   }
 
   showPath(path: Path | null): void {

@@ -6,7 +6,7 @@ import { type Camera, originOf, unmovedPixel } from "./camera";
 import { boxOf, type Label, meet, type PixelBox, placeLabels, type Spot } from "./labels";
 import type { Point } from "./resolve";
 
-export type Kind = "row" | "room" | "proposed" | "place" | "guess" | "thing";
+export type Kind = "robot" | "row" | "room" | "proposed" | "place" | "guess" | "thing";
 export type Nameplate = {
   readonly id: string;
   readonly text: string;
@@ -15,8 +15,9 @@ export type Nameplate = {
 };
 
 /** Who chooses room first. */
-const ORDER: readonly Kind[] = ["row", "room", "proposed", "guess", "place", "thing"];
+const ORDER: readonly Kind[] = ["robot", "row", "room", "proposed", "guess", "place", "thing"];
 const MARK_PX: Readonly<Record<Kind, number>> = {
+  robot: 14,
   row: 8,
   room: 0,
   proposed: 0,
@@ -26,6 +27,7 @@ const MARK_PX: Readonly<Record<Kind, number>> = {
 };
 /** Classes as stories and styles know them. */
 const CLASSES: Readonly<Record<Kind, string>> = {
+  robot: "name name-robot",
   row: "name name-row",
   room: "name name-room",
   proposed: "name name-proposed",

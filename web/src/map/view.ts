@@ -14,7 +14,7 @@ import {
   unmovedPixel,
 } from "./camera";
 import { type Box, Cells, nameSpot } from "./cells";
-import { Drawing } from "./drawing";
+import { type Body, Drawing } from "./drawing";
 import { Gestures, type Touched } from "./gestures";
 import { boxAround, type PixelBox } from "./labels";
 import { colourClass, type Kind, type Nameplate, Nameplates } from "./nameplates";
@@ -158,6 +158,15 @@ export class MapView {
     this.drawing.showRobot(pose);
     this.robot = pose && pointOf(pose);
     if (this.plates.crowds(this.robotBox())) this.replaceNames();
+  }
+
+  /** Draw several robots, each with its name. */
+  showBodies(bodies: readonly Body[]): void {
+    this.drawing.showBodies(bodies);
+    this.write(
+      "robot",
+      bodies.map(({ id, pose }): Nameplate => ({ id, text: id, at: pointOf(pose) })),
+    );
   }
 
   /** Say whether a name stands nowhere for want of room. */

@@ -5,7 +5,7 @@
 import { effect, signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { say, t, word } from "../i18n";
-import { note, tell } from "../state/acts";
+import { note, tell } from "../state/note";
 import { asks } from "../state/facts";
 import { goals, orderTold } from "../state/store";
 import type { Goal } from "../wire/types";

@@ -2,7 +2,6 @@
  * Put first what waits for a person, on every view: the newest question as a card with its buttons, and
  * below it what keeps the robot from driving, with the one button that ends it.
  */
-import { useSignal } from "@preact/signals";
 import { say, t } from "../i18n";
 import { act, answer } from "../state/acts";
 import { asking } from "../state/facts";
@@ -10,6 +9,7 @@ import { age, pageFresh } from "../state/store";
 import type { Goal } from "../wire/types";
 import { seconds } from "./format";
 import { Notice } from "./Notice";
+import { QuestionForm } from "./QuestionForm";
 import { Turn } from "./Turn";
 
 export function Asked() {
@@ -32,60 +32,20 @@ export function Asked() {
   );
 }
 
-/** Offer the answers to a goal's question: its options, a yes or no to a plan, and a person's own words. */
+/** Ask what a goal asks. */
 export function Question({ goal }: { goal: Goal }) {
-  const reply = useSignal("");
-  const confirms = goal.state === "awaiting_confirmation";
   const asked = goal.outcome?.message ?? goal.plan?.text ?? null; // as it was spoken
-  const send = async (text: string): Promise<void> => {
-    if (await answer(goal, text)) reply.value = "";
-  };
+  const no = goal.language === "zh" ? "不" : "no";
   return (
-    <div class="clarify">
-      <p class="question-words" dir="auto">
-        {asked === null ? t("said.shall_i") : say(asked)}
-      </p>
-      <div class="buttons">
-        {confirms && (
-          <>
-            <button type="button" class="main" onClick={() => void act(goal, "confirm")}>
-              {t("goal.confirm")}
-            </button>
-            <button type="button" onClick={() => void send(goal.language === "zh" ? "不" : "no")}>
-              {t("said.no")}
-            </button>
-          </>
-        )}
-        {(goal.plan?.options ?? []).map((option) => (
-          <button
-            key={option.text}
-            type="button"
-            class="clip"
-            onClick={() => void send(option.text)}
-          >
-            {say(option.label)}
-          </button>
-        ))}
-      </div>
-      <form
-        class="goal-row"
-        onSubmit={(event) => {
-          event.preventDefault();
-          const text = reply.value.trim();
-          if (text) void send(text);
-        }}
-      >
-        <input
-          type="text"
-          autocomplete="off"
-          enterkeyhint="send"
-          aria-label={t("goal.reply")}
-          placeholder={t("goal.reply")}
-          value={reply.value}
-          onInput={(event) => (reply.value = event.currentTarget.value)}
-        />
-        <button type="submit">{t("goal.reply.send")}</button>
-      </form>
-    </div>
+    <QuestionForm
+      words={asked === null ? t("said.shall_i") : say(asked)}
+      options={goal.plan?.options ?? []}
+      confirm={
+        goal.state === "awaiting_confirmation"
+          ? { yes: () => void act(goal, "confirm"), no: () => void answer(goal, no) }
+          : null
+      }
+      send={(text) => answer(goal, text)}
+    />
   );
 }

@@ -4,7 +4,8 @@ import { useEffect } from "preact/hooks";
 import { encode } from "uqr";
 import { t } from "../i18n";
 import { addPerson, listPeople, removePerson } from "../net/api";
-import { attempt, tell } from "../state/acts";
+import { attempt } from "../state/acts";
+import { tell } from "../state/note";
 import type { NewPerson, Person, PersonRole } from "../wire/types";
 
 const ROLES: readonly PersonRole[] = ["operator", "viewer", "dispatcher", "agent"];

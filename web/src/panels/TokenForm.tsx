@@ -3,11 +3,19 @@ import { useSignal } from "@preact/signals";
 import { t } from "../i18n";
 import { setToken } from "../net/token";
 
-export function TokenForm({ used }: { used: () => void }) {
+export function TokenForm({
+  used,
+  title = t("token.title"),
+  text = t("token.text"),
+}: {
+  used: () => void;
+  title?: string;
+  text?: string;
+}) {
   const typed = useSignal("");
   return (
     <section class="card token">
-      <h2>{t("token.title")}</h2>
+      <h2>{title}</h2>
       <form
         onSubmit={(event) => {
           event.preventDefault();
@@ -24,7 +32,7 @@ export function TokenForm({ used }: { used: () => void }) {
             onInput={(event) => (typed.value = event.currentTarget.value)}
           />
           <small>
-            {t("token.text")}
+            {text}
             {!globalThis.isSecureContext && ` ${t("token.insecure")}`}
           </small>
         </label>

@@ -1,9 +1,10 @@
 /** Show who speaks to this page and how fresh it is, and let the person choose the language. */
 import { computed } from "@preact/signals";
-import { choose, language, t } from "../i18n";
+import { t } from "../i18n";
 import { age, bridgeFresh, shown, shownStatus } from "../state/store";
 import { headlineNow, isLow, linkNow } from "../state/facts";
 import { percent, seconds } from "./format";
+import { Languages } from "./Languages";
 import { inSetup } from "../state/trial";
 import { toGoalBox } from "./Tabs";
 
@@ -35,20 +36,7 @@ export function TopBar() {
       <Mode />
       <Battery />
       <Link />
-      <fieldset class="languages">
-        <legend class="unseen">{t("page.language")}</legend>
-        {(["en", "zh"] as const).map((code) => (
-          <button
-            key={code}
-            type="button"
-            lang={code === "zh" ? "zh-CN" : "en"}
-            aria-pressed={language.value === code}
-            onClick={() => choose(code)}
-          >
-            {code === "zh" ? "中文" : "EN"}
-          </button>
-        ))}
-      </fieldset>
+      <Languages />
     </header>
   );
 }

@@ -13,7 +13,7 @@ import {
   type WizardState,
   writeRobot,
 } from "../net/wizard";
-import { explain, tell } from "../state/acts";
+import { explain, tell } from "../state/note";
 import { open } from "../state/store";
 import { inSetup } from "../state/trial";
 import { toGoalBox, toTeaching } from "./Tabs";

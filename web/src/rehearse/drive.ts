@@ -1,7 +1,7 @@
 /** Have the shown plan driven in the simulator, and hold how it goes: asked twice a second until it is over. */
 import { effect, signal } from "@preact/signals";
 import { call } from "../net/api";
-import { explain, tell } from "../state/acts";
+import { explain, tell } from "../state/note";
 import type { Bilingual } from "../wire/types";
 import { shown, type Rehearsal, type Shown } from "./rehearsal";
 

@@ -2,7 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { say, t, word } from "../i18n";
 import { call } from "../net/api";
-import { explain, tell } from "../state/acts";
+import { explain, tell } from "../state/note";
 import { currentGoals } from "../state/store";
 import type { Bilingual, Goal } from "../wire/types";
 

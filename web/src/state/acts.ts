@@ -1,9 +1,7 @@
 /** Do what a person asks for, and tell how it went. Components call these and nothing below them. */
-import { signal } from "@preact/signals";
-import { causeWords, say, t, wantWords, word } from "../i18n";
+import { say, t } from "../i18n";
 import {
   type Act,
-  ApiError,
   actOnGoal,
   answerGoal,
   changeOrder,
@@ -22,28 +20,8 @@ import {
 } from "../net/api";
 import { prove, proveGoal } from "../net/proof";
 import type { Goal, Taught } from "../wire/types";
+import { explain, tell } from "./note";
 import { learn, sortedGoals, status } from "./store";
-
-export type Note = { readonly id: number; readonly text: string; readonly bad: boolean };
-
-/** What was told last; shown for a while and read aloud. */
-export const note = signal<Note | null>(null);
-
-export function tell(text: string, bad = false): void {
-  note.value = { id: (note.peek()?.id ?? 0) + 1, text, bad };
-}
-
-export function explain(error: unknown): string {
-  if (!(error instanceof ApiError)) return String(error);
-  if (error.words) return say(error.words);
-  const known = word("error", error.code);
-  if (known !== error.code) return known;
-  const want = wantWords(error.code);
-  if (want) return t("notice.waiting", { what: want });
-  const cause = causeWords(error.code);
-  if (cause) return cause;
-  return t("error.other", { code: error.code, detail: error.detail });
-}
 
 /** Run a request; tell its failure. Return whether it went well. */
 export async function attempt(request: () => Promise<Goal | undefined>): Promise<boolean> {

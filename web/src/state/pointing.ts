@@ -24,7 +24,8 @@ import {
 import { movePlace } from "../net/api";
 import { proveGoal, proveText } from "../net/proof";
 import type { Place } from "../wire/types";
-import { attempt, tell } from "./acts";
+import { attempt } from "./acts";
+import { tell } from "./note";
 import { grid, status } from "./store";
 
 /** The point whose menu is open. */

@@ -12,7 +12,7 @@ import {
   testModel,
   type Value,
 } from "../net/settings";
-import { explain, tell } from "./acts";
+import { explain, tell } from "./note";
 
 export const GROUPS = ["model", "eyes", "voice", "limits", "notices", "budget"] as const;
 export type Group = (typeof GROUPS)[number];

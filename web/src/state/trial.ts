@@ -8,7 +8,7 @@ import { t } from "../i18n";
 import { askTrial, enterSetup, newId } from "../net/api";
 import { markOf, prove } from "../net/proof";
 import type { Trial } from "../wire/types";
-import { explain, tell } from "./acts";
+import { explain, tell } from "./note";
 import { setup, status } from "./store";
 import { steady } from "./steady";
 

@@ -8,27 +8,14 @@ import { motion, type Tone } from "../state/headline";
 import { steady } from "../state/steady";
 import { isTrying } from "../state/trial";
 import type { StopState } from "./machine";
+import { StopButton } from "./StopButton";
 import { stop, stopState } from "./stopper";
 
 export function StopBar() {
   const state = stopState.value;
   return (
     <footer class="stopbar">
-      <button
-        type="button"
-        class="stop"
-        id="stop"
-        aria-keyshortcuts="Space Escape"
-        onPointerDown={(event) => {
-          if (event.button === 0) stop(); // on touch, not on release: a slipping finger still stops
-        }}
-        onClick={(event) => {
-          if (event.detail === 0) stop(); // by Enter or by a screen reader: no pointer came before
-        }}
-      >
-        <span class="stop-word">{t("stop.button")}</span>
-        <span class="stop-keys">{t("stop.keys")}</span>
-      </button>
+      <StopButton word={t("stop.button")} keys={t("stop.keys")} stop={stop} />
       <div class="stop-says">
         <p class={`stop-state ${tone(state)}`} role="alert" id="stop-state">
           {says(state)}

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { say, t } from "../i18n";
 import { giveSpoken, hushRobot, type Voice } from "../net/api";
-import { explain, tell } from "../state/acts";
+import { explain, tell } from "../state/note";
 import { learn } from "../state/store";
 import { aloud, canSpeak, hush, setAloud } from "./aloud";
 import { CannotListen, deaf, record, type Recording } from "./recorder";
