@@ -24,6 +24,7 @@ from planner.settings.model import ModelSettings
 from planner.settings.mqtt import MqttSettings
 from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import known_as
+from planner.settings.tools import ToolServerSettings
 from planner.settings.vision import VisionSettings, with_environment
 from planner.settings.voice import SpeechSettings, VoiceSettings
 from wire import ConfigError
@@ -57,6 +58,8 @@ class Settings(BaseModel):
     mqtt: MqttSettings | None = None
     """None: the robot joins no smart home."""
     limits: LimitSettings = LimitSettings()
+    tools: Annotated[dict[ServerName, ToolServerSettings], Field(max_length=16)] = {}
+    """Servers that a brain with a model may ask, each by the owner's name for it."""
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
