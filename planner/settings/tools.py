@@ -5,9 +5,13 @@ Data only. What is not listed here is never called; a key never shows.
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, SecretStr, StringConstraints
+
+from planner.outbound import Address
+from wire import ConfigError
 
 Url = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=2000)]
 Names = Annotated[
@@ -41,3 +45,37 @@ class ToolServerSettings(BaseModel):
     """Calls of one day (UTC), all goals together."""
     allow_offhost: bool = False
     """Let what people say leave this machine, in arguments: for every host but loopback."""
+
+    @property
+    def address(self) -> Address:
+        """Return where it is asked. Raises ConfigError: ``tools_url``."""
+        return Address.parse(self.url, "", "tools")
+
+
+def judge_servers(servers: Mapping[str, ToolServerSettings]) -> None:
+    """Judge the owner's servers together.
+
+    Raises:
+        ConfigError: ``tools_url``, ``tools_offhost``, ``tools_twice``.
+    """
+    known: dict[str, str] = {}
+    for name, server in servers.items():
+        address = server.address
+        if not address.local and not server.allow_offhost:
+            raise ConfigError(
+                "tools_offhost",
+                f"what people say would be sent to {address.host}; if that is meant, set "
+                f"allow_offhost = true in [tools.{name}]",
+            )
+        if (first := known.setdefault(address.url, name)) != name:
+            raise ConfigError("tools_twice", f"[tools.{first}] and [tools.{name}] are one server")
+        if both := set(server.allow or ()) & set(server.may_write):
+            told = ", ".join(sorted(both))
+            raise ConfigError("tools_twice", f"[tools.{name}] lists under both: {told}")
+
+
+def server_tables(tables: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the tables below [tools] of a settings.toml, by the owner's names."""
+    tools = tables.get("tools")
+    found = tools.items() if isinstance(tools, dict) else ()
+    return {name: server for name, server in found if isinstance(server, dict)}
