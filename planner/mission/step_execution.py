@@ -194,7 +194,7 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
 
 
 def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp | CallTool) -> None:
-    """Say words, or have memory or a tool asked; a tool once this is on disk, so that none lacks."""
+    """Say words, or have memory or a tool asked; a tool once this is on disk."""
     if isinstance(act, CallTool):
         mission = turn.put(mission, skill_state=act.state or mission.skill_state)
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)

@@ -73,6 +73,7 @@ class Answers:
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
     recalled: Callable[[Recalled | ToolAnswered], None] = lambda _: None
+    call: ToolCaller = call_nothing
 
 
 class MissionTasks:
@@ -85,9 +86,8 @@ class MissionTasks:
         answers: Answers,
         eyes: EyeDoor | None = None,
         recall: Recaller = recall_nothing,
-        call: ToolCaller | None = None,
     ) -> None:
-        self._think, self._recall, self._call = think, recall, call or call_nothing
+        self._think, self._recall = think, recall
         self._eyes = eyes or EyeDoor(None)
         self._router = router
         self._answers = answers
@@ -196,7 +196,7 @@ class MissionTasks:
 
     async def _ask_tool(self, ask: AskTool) -> None:
         try:
-            answer = await self._call(ask)
+            answer = await self._answers.call(ask)
         except Exception:
             # As with a brain: its fault must not end the planner.
             log.exception("a tool failed on goal %s", ask.id)

@@ -197,7 +197,7 @@ class _EventReader:
         elif not line and self._data:
             message = _parse(bytes(self._data))
             self._data = bytearray()
-            if isinstance(message, dict) and message.get("id") == self._number:
+            if isinstance(message, dict) and _answers(message, self._number):
                 self.answer = self.answer or message
 
 
@@ -208,7 +208,7 @@ def _result_of(answer: CallAnswer, number: int) -> dict[str, Any]:
         message: object = reader.answer
     else:
         message = _parse(answer.body)
-    if not isinstance(message, dict) or message.get("id") != number:
+    if not isinstance(message, dict) or not _answers(message, number):
         raise CallFailure(f"no answer of JSON-RPC came, but {answer.kind[:40]}", why="bad_reply")
     error, result = message.get("error"), message.get("result")
     if isinstance(error, dict):
@@ -217,6 +217,11 @@ def _result_of(answer: CallAnswer, number: int) -> dict[str, Any]:
     if not isinstance(result, dict):
         raise CallFailure("the answer has no result", why="bad_reply")
     return result
+
+
+def _answers(message: dict[str, Any], number: int) -> bool:
+    """Tell whether a message answers a request; a server numbers requests of its own, too."""
+    return message.get("id") == number and "method" not in message
 
 
 def _parse(raw: bytes) -> object:
