@@ -41,7 +41,8 @@ from planner.site.marks import marks_path
 from planner.skill_files.folder import SkillFolder
 from planner.skill_files.keep import SkillKeeper
 from planner.spoken_replies import SpokenReplies
-from planner.state_database import StateDatabase
+from planner.state_database import open_sound
+from planner.tool_servers import ToolDesk
 from planner.traces import traces_of
 from planner.voice import VoiceAbilities
 from planner.voice_factory import VoiceParts
@@ -93,11 +94,11 @@ class Planner:
         self._switches = switches_of(where.may_set_up, where.may_take_robot, where.may_map)
         self.setup, self.take_robot, self.change_map, self.restart = self._switches
         self.settings = load_settings(where.home, os.environ)
-        self._where, self._state = where, _state_of(where.home)
-        self.people = People(self._state)
+        self._where, self._state = where, open_sound(where.home)
+        self.people, self.tools = People(self._state), ToolDesk(self.settings.tools, self._state)
         self.budget = purse_of(self.settings, where.home, self._state)
         self.replies = collector_of(self.settings)
-        self._model = model_of(self.settings, where.home, self.budget, self.replies)
+        self._model = model_of(self.settings, where.home, self.budget, self.replies, self.tools)
         self.description: RobotDescription = load_robot(where.robot)
         self.site = Site.load(where.site)
         self.brain = brain_of(self._model, self.settings)
@@ -211,6 +212,7 @@ class Planner:
         self.recollection.flush_by(self.recorder.flush)
         self.recollection.listen(self._on_forgotten)
         self.goals.remember_by(self.recollection)
+        self.goals.loop.call_tool = self.tools.answer
 
     def _on_forgotten(self, things: tuple[str, ...] | None) -> None:
         """Let the eyes forget what memory has: it comes back when it is seen again."""
@@ -256,6 +258,7 @@ class Planner:
             places = self.memory
             loop.hub.join(PlanDisplay(shown, lambda: loop.leg, lambda: places.places, monotonic))
         await self.skills.start()
+        await self.tools.start()
         await self.eyes.start()
         await self.recorder.start(self.eyes.sight.things)
         await self.orders.keeper.start()
@@ -268,6 +271,7 @@ class Planner:
         await self.rehearsal_drives.close()
         await self.orders.keeper.close()
         await self.skills.close()
+        await self.tools.close()
         await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()
@@ -285,13 +289,6 @@ class Planner:
         self._state.close()
         self._journal.close()
         self._session.close()
-
-
-def _state_of(home: Path) -> StateDatabase:
-    """Return the database of a home, a new one in the place of a file that is spoilt."""
-    state = StateDatabase(home)
-    state.put_aside_if_spoilt()
-    return state
 
 
 def application(planner: Planner, access: Access, authority: bytes = b"") -> FastAPI:

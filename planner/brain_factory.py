@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from planner.brain.endpoint import EndpointBrain
     from planner.brain.usage_meter import Meter
     from planner.settings import Settings
+    from planner.tool_servers import ToolDesk
 
 log = logging.getLogger(__name__)
 
@@ -26,15 +27,20 @@ def collector_of(settings: Settings) -> ReplyCollector:
 
 
 def model_of(
-    settings: Settings, home: Path, meter: Meter, replies: ReplyCollector | None = None
+    settings: Settings,
+    home: Path,
+    meter: Meter,
+    replies: ReplyCollector | None = None,
+    tools: ToolDesk | None = None,
 ) -> EndpointBrain | None:
-    """Return the brain of the model that the owner has set, if one is."""
+    """Return the brain of the model that the owner has set, if one is; ``tools``: it may ask."""
     if settings.model is None:
         return None
     from planner.brain.endpoint import EndpointBrain, warm_up  # httpx costs 0.1 s: not for nothing
 
     logging.getLogger("httpx").setLevel(logging.WARNING)  # a line for each call is too much
-    model = EndpointBrain(settings.model, home, meter=meter, replies=replies)
+    offered = (lambda: tools.tools) if tools is not None else tuple
+    model = EndpointBrain(settings.model, home, meter=meter, replies=replies, tools=offered)
     warm_up()
     log.info("plans come from %s at %s", model.tag.name, model.address.host)
     return model

@@ -335,3 +335,10 @@ def _put_beside(path: Path, end: str) -> Path:
     names = (f"{path.name}.{end}" + (f"-{n}" if n > 1 else "") for n in count(1))
     beside = next(p for p in map(path.with_name, names) if not p.exists())
     return path.rename(beside)
+
+
+def open_sound(home: Path) -> StateDatabase:
+    """Return the database of a home, a new one in the place of a file that is spoilt."""
+    state = StateDatabase(home)
+    state.put_aside_if_spoilt()
+    return state

@@ -33,6 +33,7 @@ from planner.api import (
     setup,
     skills,
     static_files,
+    tools,
     usage,
     voice,
     websocket,
@@ -54,7 +55,7 @@ if TYPE_CHECKING:
 _PARTS = (
     goals, rehearsals, voice, live_voice, operator, hand, setup, settings, wizard, robot,
     capabilities, orders, places, localization, objects, memory, pictures, camera, fence, marks,
-    people, skills, usage, history, health, websocket,
+    people, skills, tools, usage, history, health, websocket,
 )  # fmt: skip
 API_VERSION = "1.0.0"
 DESCRIPTION = "Give a wheeled robot goals in words; stop it; see what it does and why."

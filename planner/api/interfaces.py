@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from planner.setup_wizard import SetupWizard
     from planner.site import FenceProposals, KnownPlaces, Site
     from planner.skill_files.folder import SkillFolder
+    from planner.tool_servers import ToolDesk
     from planner.voice import Recogniser, SpeechSink, VoiceAbilities
     from planner.watching import PlannerFigures
     from wire import (
@@ -324,3 +325,6 @@ class Services(Protocol):
 
     @property
     def skills(self) -> SkillFolder: ...
+
+    @property
+    def tools(self) -> ToolDesk: ...

@@ -6,6 +6,7 @@ A brain may be slow, wrong or gone; what it returns is judged by `planner.plan.c
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Annotated, Literal, Protocol
 
 from pydantic import BeforeValidator, Field
@@ -33,10 +34,14 @@ MAX_DETAIL = 300
 """Characters of one observation in one language; what is longer is cut."""
 
 
-def _short(detail: object) -> object:
+MAX_READ = 900
+"""And of what a picture or a tool said."""
+
+
+def _short(detail: object, most: int = MAX_DETAIL) -> object:
     if not isinstance(detail, Bilingual):
         return detail
-    return Bilingual(en=detail.en[:MAX_DETAIL], zh=detail.zh[:MAX_DETAIL])
+    return Bilingual(en=detail.en[:most], zh=detail.zh[:most])
 
 
 class Observation(Frozen):
@@ -48,10 +53,10 @@ class Observation(Frozen):
     step: Annotated[str, Field(min_length=1, max_length=40)]  # the kind of the step
     result: Literal["succeeded", "failed", "skipped", "answered"]
     detail: Annotated[Bilingual, BeforeValidator(_short)]
-    read: Annotated[Bilingual | None, BeforeValidator(_short)] = None
-    """What a model wrote about a picture. Tainted: words that stood in the picture may be in it, so
-    nothing that is done follows from it (``planner.brain.tainted_text``), and nothing of it is in
-    ``detail``."""
+    read: Annotated[Bilingual | None, BeforeValidator(partial(_short, most=MAX_READ))] = None
+    """What a model wrote about a picture, or a tool answered. Tainted: words that strangers wrote
+    may be in it, so nothing that is done follows from it (``planner.brain.tainted_text``), and
+    nothing of it is in ``detail``."""
 
 
 class Exchange(Frozen):

@@ -31,3 +31,13 @@ def tokens(messages: Sequence[Message]) -> int:
 def count_tokens(text: str) -> int:
     """Estimate the tokens of a text."""
     return sum(1 + max(0, len(piece[1] or "") - 1) // _LETTERS for piece in _PIECE.finditer(text))
+
+
+def cut_tokens(text: str, most: int) -> str:
+    """Return as much of a text's beginning as that many tokens hold."""
+    spent = 0
+    for piece in _PIECE.finditer(text):
+        spent += count_tokens(piece[0])
+        if spent > most:
+            return f"{text[: piece.start()].rstrip()} …"
+    return text

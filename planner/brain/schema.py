@@ -89,10 +89,13 @@ def schema_of(vocabulary: Vocabulary, runnable: frozenset[str] = RUNNABLE) -> di
     models = step_models(runnable)
     if not ids:  # an empty enum is no schema
         models = {k: m for k, m in models.items() if not _PLACES & _fields(m).keys()}
-    held = _step_object({k: m for k, m in models.items() if k not in CONTROL}, ids, {})
+    named = [tool.name for tool in vocabulary.tools]
+    tools = {"tool": {"type": "string", "enum": named}} if named else {}
+    held = _step_object({k: m for k, m in models.items() if k not in CONTROL}, ids, tools)
     asked = {k: m for k, m in models.items() if k in CONDITIONS} | {"clock": ClockTime}
     condition = _step_object(asked, ids, {})
     parts: dict[str, Any] = {name: {"type": "array", "items": held} for name in _HOLDS_STEPS}
+    parts |= tools
     parts |= dict.fromkeys(_HOLDS_CONDITION, condition)
     step = _step_object(models | ORDER_STEPS, ids, parts)
     codes = dict.fromkeys(code.value for code in (*CLARIFY_CODES, *REFUSE_CODES))

@@ -1,9 +1,10 @@
-"""Think again about a goal with words from pictures: they may be told, never obeyed.
+"""Think again about a goal with words from pictures and tools: they may be told, never obeyed.
 
-Law: what was read in a picture may change what is said, never what is done. What is done comes from
-a thought that was not shown those words; a second thought, which is, may only put other words into
-an answer or a ``say``, and is dropped where it differs in anything else. So a sign can add no step,
-move none and take none away, however the model that reads it or the one that plans obeys it.
+Law: what was read in a picture, or came from a tool, may change what is said, never what is done.
+What is done comes from a thought that was not shown those words; a second thought, which is, may
+only put other words into an answer or a ``say``, and is dropped where it differs in anything else.
+So a sign can add no step, move none and take none away, however the model that reads it or the one
+that plans obeys it. A tool's arguments are deeds: nothing that was read goes to another server.
 """
 
 from __future__ import annotations

@@ -34,6 +34,7 @@ from planner.plan import (
     Step,
     Turn,
     UseSkill,
+    UseTool,
     Wait,
     WaitFor,
 )
@@ -196,13 +197,25 @@ def _tell_plain(step: Step) -> Bilingual:
             return say("order.wait_for", object=_with_article(what))
         case WaitFor(word=str(word)):
             return say("order.wait_word", word=word)
-        case UseSkill():
-            return say("order.use_skill", name=step.name.replace("_", " "))
+        case UseSkill() | UseTool():
+            return _tell_call(step)
         case WaitFor():
             return say("order.wait_until", time=step.time or "")
         case _:
             known = step.kind in _ALONE
             return say(_ALONE[step.kind]) if known else say_or_quote("step_kind", step.kind)
+
+
+def _tell_call(step: UseSkill | UseTool) -> Bilingual:
+    if isinstance(step, UseSkill):
+        return say("order.use_skill", name=step.name.replace("_", " "))
+    return say("order.use_tool", call=name_call(step.tool, step.arguments))
+
+
+def name_call(tool: str, arguments: tuple[str, ...]) -> str:
+    """Name a call of a tool with all its arguments: ``mail: send (Anna; dinner)``."""
+    given = "; ".join(each for each in arguments if each)
+    return tool.replace(".", ": ", 1) + (f" ({given})" if given else "")
 
 
 def _with_article(label: str) -> Bilingual:

@@ -26,6 +26,9 @@ MOTION = DRIVEN | {"stand_at", "turn", "move", "patrol", "explore"}
 BACK = frozenset({"come_back", "return_home"})
 _OVER = frozenset({StepState.SUCCEEDED, StepState.FAILED})
 _IDLE = frozenset({StepState.PENDING, StepState.SKIPPED})
+_READ_ALONE = frozenset({"look", "use_tool"})
+"""A look's reading, or a tool's answer, is the whole answer of its step."""
+_WORDED = {"say": "account.saying", "ask": "account.asking", "look": "account.looking"}
 _OBJECT_STEPS = frozenset({"find", "count", "follow", "go_to_object"})
 
 
@@ -173,7 +176,7 @@ def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
     if step.said is not None and step.state in _OVER:
         if step.read is not None:
             yield step.read
-        if step.read is None or step.kind != "look":  # a look's reading is its whole answer
+        if step.read is None or step.kind not in _READ_ALONE:
             yield step.said
     elif step.state is StepState.SUCCEEDED or (step.kind == "repeat" and step.round > 1):
         yield from _tell_deed(step)
@@ -244,14 +247,12 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
     if step.kind in _OBJECT_STEPS:
         return say(f"account_thing.{step.kind}", what=tell_words(text))
     match step.kind:
-        case "say":
-            return say("account.saying", text=text)
-        case "ask":
-            return say("account.asking", text=text)
-        case "look":
-            return say("account.looking", text=text)
+        case "say" | "ask" | "look":
+            return say(_WORDED[step.kind], text=text)
         case "recall":
             return say("account.recalling")
+        case "use_tool":
+            return say("account.asking_tool", tool=step.tool)
         case "wait" | "wait_for":
             return _name_wait(step)
         case "turn" | "move":

@@ -189,6 +189,16 @@ class LookingUp(_StepActivity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class CallingTool(_StepActivity):
+    """Stand until a tool has answered; it is asked once the step's beginning is on disk."""
+
+    ticket: int
+    agreed: bool
+    until_s: float
+    is_sent: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Waiting(_StepActivity):
     """Stand until a time."""
 
@@ -220,6 +230,7 @@ Activity = (
     | Observing
     | AskingImage
     | LookingUp
+    | CallingTool
     | Waiting
     | Speaking
     | Asking

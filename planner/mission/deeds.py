@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 MOST_TOLD = 6
 _ORDER, _TOLD = 60, 90  # characters
-_NO_DEEDS = frozenset({"recall", "decide", "say", "ask"})
+_NO_DEEDS = frozenset({"recall", "decide", "say", "ask", "use_tool"})
 _BEGUN = frozenset({StepState.RUNNING, StepState.SUCCEEDED, StepState.FAILED})
 _UNBEGUN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.REFUSED})
 

@@ -130,6 +130,18 @@ class AskMemory:
 
 
 @dataclass(frozen=True, slots=True)
+class AskTool:
+    """Have a tool called; answer with ``ToolAnswered``."""
+
+    id: str
+    ticket: int
+    tool: str
+    arguments: tuple[str, ...] = ()
+    agreed: bool = False
+    """A person said yes to this call."""
+
+
+@dataclass(frozen=True, slots=True)
 class KeepPicture:
     """Keep the picture that a gaze has ended with, for the question at the end of its step."""
 
@@ -185,6 +197,7 @@ Effect = (
     | AskRoute
     | AskEyes
     | AskMemory
+    | AskTool
     | KeepPicture
     | SavePicture
     | Journal

@@ -170,6 +170,22 @@ class Recalled:
 
 
 @dataclass(frozen=True, slots=True)
+class ToolAnswered:
+    """A tool has answered, could not be asked, or may be asked upon a person's yes alone."""
+
+    id: str
+    ticket: int
+    said: Bilingual
+    """In our own words: what was asked, why it failed, or the question."""
+    read: Bilingual | None = None
+    """The server's words: tainted."""
+    problem: str | None = None
+    """A stable code; None: it answered."""
+    asks: bool = False
+    """``said`` is to be asked first."""
+
+
+@dataclass(frozen=True, slots=True)
 class Journalled:
     """All entries up to ``entry`` are on disk."""
 
@@ -272,6 +288,7 @@ Event = (
     | Sighted
     | Told
     | Recalled
+    | ToolAnswered
     | Journalled
     | Cancel
     | Pause

@@ -1,10 +1,9 @@
 """Run reducer, link, helpers and journal on the event loop: one round after the other.
 
-Reacts to each fact as it comes (a plan, a route, an entry on disk, a status) and sends what follows
-from it at once. Holds the loop for no longer than one reduction; brain and router run beside, the
-journal in its thread. All deciding is the reducer's. Time (:class:`Clocks`), disk and link are
-given to it, tasks are those of the running event loop: the lockstep harness runs this very loop on
-a clock, a disk and an event loop of its own, and turns the rounds itself.
+Reacts to each fact as it comes, and sends at once. Holds the loop for no longer than one
+reduction; brain and router run beside, the journal in its thread. The reducer decides all. Time
+(:class:`Clocks`), disk and link are given to it, tasks are those of the running event loop: the
+lockstep harness turns the rounds itself, on a clock, a disk and an event loop of its own.
 """
 
 from __future__ import annotations
@@ -40,7 +39,7 @@ from planner.mission.reducer import asked_about_picture
 from planner.mission.skills import Eyesight
 from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.surveyor import Surveyor
-from planner.mission.tasks import Answers, MissionTasks, Recaller, RouteService, Think
+from planner.mission.tasks import Answers, MissionTasks, call_nothing
 from planner.navigation import RouteResult
 from wire import OpRequest, Status, Waypoints
 
@@ -49,6 +48,7 @@ if TYPE_CHECKING:
     from planner.mission.perception_requests import Spent
     from planner.mission.scan_sender import ScanSender
     from planner.mission.skills.perception import PictureLimits
+    from planner.mission.tasks import Recaller, RouteService, Think, ToolCaller
     from planner.perception.interfaces import Eyes
     from planner.perception.snapshot import Sight
     from wire import CameraConfig
@@ -83,6 +83,7 @@ class Loop:
         self._acts: dict[str, OpRequest] = {}
         self._surveyor = surveyor
         self._obstacles: ScanSender | None = None
+        self.call_tool: ToolCaller = call_nothing
 
     @property
     def book(self) -> MissionState:
@@ -158,8 +159,8 @@ class Loop:
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
         answers = Answers(
             *(self.event, self._on_routed, self._link.obstacles, self.event, self._break),
-            recalled=self.event,
-        )
+            recalled=self.event, call=lambda ask: self.call_tool(ask),  # noqa: PLW0108  # set later
+        )  # fmt: skip
         self._helpers = MissionTasks(think, router, answers, self.door, recall)
         offset_s = self._clocks.wall() - self._clocks.monotonic()
         local_s = float(time.localtime().tm_gmtoff)

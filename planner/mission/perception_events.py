@@ -12,18 +12,28 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import message, say_or_quote
-from planner.mission.activity import AskingImage, Driving, LookingUp, Observing
+from planner.language.catalogue import message, say, say_or_quote
+from planner.mission.activity import AskingImage, CallingTool, Driving, LookingUp, Observing
 from planner.mission.bridge_status import standing
 from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
 from planner.mission.outcomes import looks_into
 from planner.mission.queue import settle_activity
 from planner.mission.scene import pose_now, scene_of
-from planner.mission.skills import DriveLeg, Fail, ImageAnswer, Observe, SkillAction, Way, act_of
+from planner.mission.skills import (
+    DriveLeg,
+    Fail,
+    Finish,
+    ImageAnswer,
+    Observe,
+    Question,
+    SkillAction,
+    Way,
+    act_of,
+)
 from planner.mission.skills.conditions import judge_recalled
 from planner.mission.skills.object_matching import fresh, list_confirmed
-from planner.mission.skills.skill_state import LookState, PatrolState
+from planner.mission.skills.skill_state import LookState, PatrolState, ToolState
 from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -32,7 +42,7 @@ from planner.plan import Code
 from wire import wrap
 
 if TYPE_CHECKING:
-    from planner.mission.events import Recalled
+    from planner.mission.events import Recalled, ToolAnswered
     from planner.mission.transaction import Transaction
 
 
@@ -236,9 +246,31 @@ def on_recalled(turn: Transaction, event: Recalled) -> None:
     carry_out(turn, mission, judge_recalled(step.role, event.code, event.said))
 
 
-def end_lookup_if_due(turn: Transaction) -> None:
-    """End a wait for memory that has lasted too long."""
+def on_tool_answered(turn: Transaction, event: ToolAnswered) -> None:
+    """End the step with a tool's answer, or ask a person first, if the step still waits for it."""
     mission, activity = turn.running, turn.book.activity
+    if mission is None or mission.id != event.id or not isinstance(activity, CallingTool):
+        return
+    if activity.ticket != event.ticket:
+        return
+    if event.asks:
+        carry_out(turn, mission, Question(event.said, ToolState(question=event.said)))
+    elif event.problem is None:
+        carry_out(turn, mission, Finish({}, Code.TOOL_ANSWERED, event.said, event.read))
+    else:
+        figures = {"code": Code.TOOL_FAILED, "read": event.read}
+        carry_out(turn, mission, Fail(Code.TOOL_FAILED, event.problem, event.said, figures))
+
+
+def end_lookup_if_due(turn: Transaction) -> None:
+    """End a wait for memory, or for a tool, that has lasted too long."""
+    mission, activity = turn.running, turn.book.activity
+    if isinstance(activity, CallingTool) and turn.now_s >= activity.until_s and mission is not None:
+        said = message(
+            Code.TOOL_FAILED, call=mission.steps[mission.step].tool, why=say("tool_problem.timeout")
+        )
+        carry_out(turn, mission, Fail(Code.TOOL_FAILED, "timeout", said))
+        return
     if mission is None or not isinstance(activity, LookingUp) or turn.now_s < activity.until_s:
         return
     code, step = Code.MEMORY_UNAVAILABLE, mission.steps[mission.step]

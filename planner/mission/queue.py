@@ -20,7 +20,7 @@ from planner.mission.activity import (
 )
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended_outcome, failure
-from planner.mission.skills.skill_state import SkillStateBase
+from planner.mission.skills.state_base import SkillStateBase
 from planner.mission.state import AGENT_SOURCE, Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state

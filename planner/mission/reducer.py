@@ -35,6 +35,7 @@ from planner.mission.events import (
     Surveyed,
     Tick,
     Told,
+    ToolAnswered,
 )
 from planner.mission.goal_lifecycle import (
     confirm,
@@ -48,7 +49,7 @@ from planner.mission.goal_lifecycle import (
 )
 from planner.mission.leg_routes import on_routed
 from planner.mission.outcomes import moves
-from planner.mission.perception_events import on_recalled, on_sight, on_told
+from planner.mission.perception_events import on_recalled, on_sight, on_told, on_tool_answered
 from planner.mission.places_changed import on_known
 from planner.mission.plan_roles import change_speed
 from planner.mission.queue import cancel, reorder
@@ -139,6 +140,7 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
     | Sighted
     | Told
     | Recalled
+    | ToolAnswered
     | Journalled
     | Stopped
     | Restarted
@@ -154,6 +156,8 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
             on_told(turn, event.id, event.ticket, event.answer)
         case Recalled():
             on_recalled(turn, event)
+        case ToolAnswered():
+            on_tool_answered(turn, event)
         case Tick():
             on_tick(turn)
         case Journalled():

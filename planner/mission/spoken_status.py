@@ -19,7 +19,7 @@ OLD_S = 1.0
 DRIVES_MPS = 0.02
 """Slower than this, a robot that does not stand is turning."""
 _SHOWN = 60
-_ASIDE = frozenset({"recall", "decide"})
+_ASIDE = frozenset({"recall", "decide", "use_tool"})
 """Who only asks of before does nothing whose end is asked for."""
 
 

@@ -5,11 +5,13 @@ When a leg is done, ``arrival`` tells. Nothing moves or speaks before its beginn
 
 from __future__ import annotations
 
-from planner.language.catalogue import message
+from planner.language.catalogue import message, say
+from planner.language.plan_words import name_call
 from planner.mission.account import outcome_code
 from planner.mission.activity import (
     Asking,
     AskingImage,
+    CallingTool,
     Driving,
     LookingUp,
     Observing,
@@ -18,7 +20,7 @@ from planner.mission.activity import (
     Waiting,
 )
 from planner.mission.bridge_status import cannot_move
-from planner.mission.effects import AskEyes, AskMemory, SayAloud
+from planner.mission.effects import AskEyes, AskMemory, AskTool, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import ended_outcome, moves, thoughts
 from planner.mission.plan_walk import RoundBudget, enter
@@ -34,6 +36,7 @@ from planner.mission.queue import (
 from planner.mission.scene import pose_now, scene_of
 from planner.mission.skills import (
     AskImage,
+    CallTool,
     DriveLeg,
     Fail,
     Finish,
@@ -128,7 +131,7 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
             _later(turn, mission, act)
         case Stand():
             _stand(turn, mission, act)
-        case Speak() | LookUp():
+        case Speak() | LookUp() | CallTool():
             _stay(turn, mission, act)
         case Question():
             _ask(turn, mission, act)
@@ -190,15 +193,21 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     turn.emit(ask)
 
 
-def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp) -> None:
-    """Say words, or have memory asked what the step asks: its answer has the ticket."""
+def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp | CallTool) -> None:
+    """Say words, or have memory or a tool asked; a tool once this is on disk."""
+    if isinstance(act, CallTool):
+        mission = turn.put(mission, skill_state=act.state or mission.skill_state)
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
     if isinstance(act, Speak):
         turn.set(activity=Speaking(record=turn.next_entry))
         return
-    step, ticket = mission.steps[mission.step], turn.book.tickets + 1
+    step, ticket, record = mission.steps[mission.step], turn.book.tickets + 1, turn.next_entry
     until_s = turn.now_s + act.seconds
-    looking = LookingUp(record=turn.next_entry, ticket=ticket, until_s=until_s)
+    if isinstance(act, CallTool):
+        calling = CallingTool(record=record, ticket=ticket, agreed=act.agreed, until_s=until_s)
+        turn.set(tickets=ticket, activity=calling)
+        return
+    looking = LookingUp(record=record, ticket=ticket, until_s=until_s)
     turn.set(tickets=ticket, activity=looking)
     asked = (step.object, step.place, step.span, step.deeds, step.role in JUDGED)
     turn.emit(AskMemory(mission.id, ticket, *asked))
@@ -301,12 +310,24 @@ def speak_if_safe(turn: Transaction) -> None:
         text = mission.steps[mission.step].text or "" if mission.current_step is not None else ""
         turn.emit(SayAloud(mission.id, text))
         finish_step(turn, StepState.SUCCEEDED)
+    elif isinstance(activity, CallingTool) and not activity.is_sent:
+        _send_call(turn, mission, activity)
     elif isinstance(activity, Asking):
         if activity.aloud:
             turn.emit(SayAloud(mission.id, activity.question.of(mission.language)))
         turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
         said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=activity.question))
         yield_robot(turn, mission, GoalFact.STEP_ASKS, "asked", said)
+
+
+def _send_call(turn: Transaction, mission: Mission, calling: CallingTool) -> None:
+    """Have the tool asked, and people told of it, once."""
+    step = mission.steps[mission.step]
+    call = step.tool or "", step.arguments
+    asking = say("tool.asking", call=name_call(*call))
+    turn.emit(AskTool(mission.id, calling.ticket, *call, calling.agreed))
+    turn.emit(SayAloud(mission.id, asking.of(mission.language)))
+    turn.change(is_sent=True)
 
 
 def end_wait_if_due(turn: Transaction) -> None:

@@ -14,11 +14,12 @@ from planner.mission.effects import (
     AskEyes,
     AskMemory,
     AskRoute,
+    AskTool,
     DropBrain,
     KeepPicture,
     SavePicture,
 )
-from planner.mission.events import Planned, Recalled, Told
+from planner.mission.events import Planned, Recalled, Told, ToolAnswered
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.skills import Way
 from planner.mission.skills.perception import ImageAnswer
@@ -30,6 +31,8 @@ log = logging.getLogger(__name__)
 
 Recaller = Callable[[AskMemory], Awaitable[Recalled]]
 """Look up what is remembered."""
+ToolCaller = Callable[[AskTool], Awaitable[ToolAnswered]]
+"""Call a tool of the owner's servers."""
 Think = Callable[[AskBrain], Awaitable[Planned]]
 """Understand a sentence. Cancelled at once when nobody waits for the answer any more."""
 
@@ -38,6 +41,13 @@ async def recall_nothing(ask: AskMemory) -> Recalled:
     """Answer for a robot without memory: nothing is remembered."""
     code = Code.NOT_REMEMBERED
     return Recalled(ask.id, ask.ticket, code, message(code, what=what_of(ask)))
+
+
+async def call_nothing(ask: AskTool) -> ToolAnswered:
+    """Answer for a robot without tools."""
+    why = say("tool_problem.tool_unknown")
+    said = message(Code.TOOL_FAILED, call=ask.tool, why=why)
+    return ToolAnswered(ask.id, ask.ticket, said, problem="tool_unknown")
 
 
 def what_of(ask: AskMemory) -> Bilingual:
@@ -62,7 +72,8 @@ class Answers:
     told: Callable[[Told], None]
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
-    recalled: Callable[[Recalled], None] = lambda _: None
+    recalled: Callable[[Recalled | ToolAnswered], None] = lambda _: None
+    call: ToolCaller = call_nothing
 
 
 class MissionTasks:
@@ -86,7 +97,14 @@ class MissionTasks:
 
     def help(
         self,
-        ask: AskBrain | AskRoute | AskEyes | AskMemory | KeepPicture | SavePicture | DropBrain,
+        ask: AskBrain
+        | AskRoute
+        | AskEyes
+        | AskMemory
+        | AskTool
+        | KeepPicture
+        | SavePicture
+        | DropBrain,
     ) -> None:
         """Start to think, to search or to ask about pictures; keep one; stop thinking."""
         match ask:
@@ -106,6 +124,8 @@ class MissionTasks:
                     self.spawn(saving)
             case AskMemory():
                 self.spawn(self._look_up(ask))
+            case AskTool():
+                self.spawn(self._ask_tool(ask))
             case AskEyes():
                 self._inquiries[ask.ticket] = self._start(self._inquire(ask))
 
@@ -172,6 +192,17 @@ class MissionTasks:
             log.exception("memory failed on goal %s", ask.id)
             code = Code.MEMORY_UNAVAILABLE
             answer = Recalled(ask.id, ask.ticket, code, message(code))
+        self._answers.recalled(answer)
+
+    async def _ask_tool(self, ask: AskTool) -> None:
+        try:
+            answer = await self._answers.call(ask)
+        except Exception:
+            # As with a brain: its fault must not end the planner.
+            log.exception("a tool failed on goal %s", ask.id)
+            why = say("tool_problem.bad_reply")
+            said = message(Code.TOOL_FAILED, call=ask.tool, why=why)
+            answer = ToolAnswered(ask.id, ask.ticket, said, problem="bad_reply")
         self._answers.recalled(answer)
 
     async def _search(self, ask: AskRoute) -> None:

@@ -8,8 +8,8 @@ whoever calls knows whether a second try is worth the wait.
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import httpx
@@ -35,6 +35,8 @@ class CallAnswer:
     kind: str
     """The media type, without parameters, in lower case."""
     body: bytes
+    headers: Mapping[str, str] = field(default_factory=dict)
+    """The server's, by their names in lower case."""
 
 
 class Caller:
@@ -93,6 +95,7 @@ class Caller:
         form: Mapping[str, str] | None = None,
         files: Mapping[str, tuple[str, bytes, str]] | None = None,
         headers: Mapping[str, str] | None = None,
+        is_whole: Callable[[bytes], bool] = lambda _: False,
     ) -> CallAnswer:
         """Return the server's answer.
 
@@ -103,6 +106,7 @@ class Caller:
             form: fields, and with them
             files: name of a field -> file name, bytes and media type.
             headers: more of them.
+            is_whole: is handed each piece as it comes; a yes ends the reading of a stream.
 
         Raises:
             CallFailure: ``unreachable``, ``refused_address``, ``timeout``, ``redirect``,
@@ -114,7 +118,9 @@ class Caller:
         given = {name: value for name, value in body.items() if value is not None}
         for target in await self._names.targets():
             try:
-                answer = await self._post_once(target, dict(headers or {}), given, most_bytes)
+                answer = await self._post_once(
+                    target, dict(headers or {}), given, most_bytes, is_whole
+                )
             except (httpx.ConnectError, httpx.ConnectTimeout) as error:
                 refused = self._failure("unreachable", error)
                 continue
@@ -123,7 +129,12 @@ class Caller:
         raise refused or CallFailure("there is no address", why="unreachable")
 
     async def _post_once(
-        self, target: CallTarget, headers: dict[str, str], given: dict[str, Any], most: int
+        self,
+        target: CallTarget,
+        headers: dict[str, str],
+        given: dict[str, Any],
+        most: int,
+        is_whole: Callable[[bytes], bool],
     ) -> CallAnswer:
         try:
             async with self._http.stream(
@@ -143,6 +154,8 @@ class Caller:
                     body += piece
                     if len(body) > most:
                         raise CallFailure(f"more than {most} bytes came", why="too_large")
+                    if is_whole(piece):
+                        break
         except (httpx.ConnectError, httpx.ConnectTimeout):
             raise
         except httpx.TimeoutException as error:
@@ -152,7 +165,8 @@ class Caller:
         except (httpx.HTTPError, httpx.InvalidURL, httpx.StreamError, ValueError) as error:
             raise self._failure("bad_reply", error) from None
         kind = response.headers.get("content-type", "").partition(";")[0].strip().lower()
-        return CallAnswer(kind, self.secret.struck_bytes(bytes(body)))
+        told = {name.lower(): value for name, value in response.headers.items()}
+        return CallAnswer(kind, self.secret.struck_bytes(bytes(body)), told)
 
     async def _refusal(self, response: httpx.Response) -> CallFailure:
         """Return the failure of a status that is no 2xx, with the beginning of its words."""

@@ -60,6 +60,7 @@ from planner.plan.steps import (
     NEEDS_GROWING_MAP,
     RUNNABLE,
     STANDS,
+    TOOL_CALLS,
     Ask,
     Attempt,
     ClockTime,
@@ -91,6 +92,7 @@ from planner.plan.steps import (
     Wait,
     WaitFor,
 )
+from planner.plan.tool import Tool, ToolParameter, UseTool
 from planner.plan.tree import (
     JUDGED,
     StepNode,
@@ -125,6 +127,7 @@ __all__ = [
     "RUNNABLE",
     "STANDS",
     "STEPLESS",
+    "TOOL_CALLS",
     "AnswerPlan",
     "Ask",
     "Attempt",
@@ -190,8 +193,11 @@ __all__ = [
     "StepRecord",
     "StepRole",
     "StepState",
+    "Tool",
+    "ToolParameter",
     "Turn",
     "UseSkill",
+    "UseTool",
     "Vocabulary",
     "Wait",
     "WaitFor",

@@ -30,7 +30,15 @@ from planner.plan.responses import (
     Refuse,
     StepPlan,
 )
-from planner.plan.steps import CONTROL, GIVEN, NEEDS_CAMERA, NEEDS_GROWING_MAP, RUNNABLE, Step
+from planner.plan.steps import (
+    CONTROL,
+    GIVEN,
+    NEEDS_CAMERA,
+    NEEDS_GROWING_MAP,
+    RUNNABLE,
+    TOOL_CALLS,
+    Step,
+)
 from planner.plan.tree import parent_of, parents_of
 
 NEEDS_DETECTOR = frozenset({"find", "count", "follow", "go_to_object"})
@@ -49,7 +57,8 @@ class Means(Frozen):
     @property
     def runnable(self) -> frozenset[str]:
         """Return the kinds of steps that this robot can do."""
-        drives = RUNNABLE | GIVEN | (NEEDS_GROWING_MAP if self.growing_map else frozenset())
+        grows = NEEDS_GROWING_MAP if self.growing_map else frozenset()
+        drives = RUNNABLE | GIVEN | TOOL_CALLS | grows
         if not self.camera:
             return drives
         look = {"look"} if self.detector or self.model else set()
@@ -57,8 +66,11 @@ class Means(Frozen):
 
     @property
     def plannable(self) -> frozenset[str]:
-        """Return the kinds that a brain may plan with: it points at nothing, picture or map."""
-        return self.runnable - POINTS - GIVEN
+        """Return the kinds that a brain may plan with: it points at nothing, picture or map.
+
+        Skills and tools are offered where there are any (``Vocabulary.calls``).
+        """
+        return self.runnable - POINTS - GIVEN - TOOL_CALLS
 
     @property
     def blind(self) -> Code:

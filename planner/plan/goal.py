@@ -129,7 +129,9 @@ class StepRecord(Frozen):
     rooms: tuple[str, ...] = ()  # that were looked through
     code: Code | None = None  # what a step that looks came to
     said: Bilingual | None = None  # and in words, from figures
-    read: Bilingual | None = None  # what a model said of the picture: tainted, for people alone
+    read: Bilingual | None = (
+        None  # what a model said of the picture, or a tool: tainted, for people
+    )
     answer: str | None = None  # what a person answered to this step's question
     recoveries: tuple[str, ...] = ()  # what was tried where the way was shut, in order
     left_m: float | None = None  # way left while the step runs
@@ -148,6 +150,8 @@ class StepRecord(Frozen):
     time: str | None = None  # HH:MM that is waited for
     after: str | None = None  # HH:MM
     before: str | None = None  # HH:MM
+    tool: str | None = None  # that is asked: SERVER.TOOL
+    arguments: tuple[str, ...] = ()  # of the call, in the row of the tool's parameters
 
 
 class PlanRecord(Frozen):

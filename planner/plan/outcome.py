@@ -85,6 +85,8 @@ class Code(StrEnum):
     RECALLED = "recalled"
     NOT_REMEMBERED = "not_remembered"
     MEMORY_UNAVAILABLE = "memory_unavailable"
+    TOOL_ANSWERED = "tool_answered"
+    TOOL_FAILED = "tool_failed"
     DONE = "done"
     ANSWERED = "answered"
     CANCELLED = "cancelled"

@@ -37,6 +37,8 @@ _SHOWN = set(
         "time",
         "after",
         "before",
+        "tool",
+        "arguments",
     }
 )
 """What is asked of a step, and no result of it."""

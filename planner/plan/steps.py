@@ -16,6 +16,7 @@ from pydantic import Field, StringConstraints, model_validator
 
 from planner.plan.base import Frozen
 from planner.plan.skill import MOST_PARAMETERS, SkillName
+from planner.plan.tool import UseTool
 from planner.plan.vocabulary import PlaceId
 from wire.bounded_types import Fingerprint
 from wire.geometry import Metres, Yaw
@@ -310,7 +311,8 @@ Step = Annotated[
     | If
     | Attempt
     | Repeat
-    | UseSkill,
+    | UseSkill
+    | UseTool,
     Field(discriminator="kind"),
 ]
 for _model in (If, Attempt, Repeat):
@@ -332,7 +334,9 @@ MODELS = {get_args(model.model_fields["kind"].annotation)[0]: model for model in
 CALLS = frozenset({"use_skill"})
 """What stands for other steps, which take its place before a plan is judged: no mission walks it,
 and it is offered where there are skills alone."""
-EVERY_KIND = frozenset(MODELS) - GIVEN - CALLS
+TOOL_CALLS = frozenset({"use_tool"})
+"""It is offered where there are tools alone. It stands, and no branch can hang on it."""
+EVERY_KIND = frozenset(MODELS) - GIVEN - CALLS - TOOL_CALLS
 """What a brain's plan may hold at all; a robot's own `runnable` is a part of it."""
 CONTROL = frozenset({"if", "try", "repeat"})
 """They hold steps and do nothing by themselves."""

@@ -13,6 +13,7 @@ from pydantic import StringConstraints, model_validator
 
 from planner.plan.base import Bilingual, Frozen
 from planner.plan.skill import Skill
+from planner.plan.tool import Tool
 
 PlaceId = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9_]{0,63}$")]
 Alias = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=80)]
@@ -48,6 +49,8 @@ class Vocabulary(Frozen):
     """What the owner has added in files of their own."""
     skill_templates: str = ""
     """The sentences that call them, as such a file holds them."""
+    tools: tuple[Tool, ...] = ()
+    """What servers of the owner's can be asked: a model alone is told of them."""
 
     @model_validator(mode="after")
     def _ids_once(self) -> Self:
@@ -73,6 +76,10 @@ class Vocabulary(Frozen):
     def calls(self) -> frozenset[str]:
         """Return the kinds of steps that call a skill; none where there are no skills."""
         return frozenset({"use_skill"}) if self.skills else frozenset()
+
+    def tool(self, name: str) -> Tool | None:
+        """Return the tool of a name; None: there is none."""
+        return next((each for each in self.tools if each.name == name), None)
 
     def __contains__(self, place: object) -> bool:
         return place in self.by_id

@@ -10,14 +10,15 @@ from planner.settings.loader import (
     list_keys,
     load_settings,
     place_of,
-    same_place,
 )
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import OWN_FIELDS, ModelSettings
+from planner.settings.model_address import same_place
 from planner.settings.mqtt import MqttSettings
 from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import PRESETS, JsonMode, Preset, PresetName, TokensField
+from planner.settings.tools import ToolServerSettings
 from planner.settings.vision import VisionSettings
 from planner.settings.voice import SpeechSettings, VoiceSettings
 
@@ -43,6 +44,7 @@ __all__ = [
     "Settings",
     "SpeechSettings",
     "TokensField",
+    "ToolServerSettings",
     "VisionSettings",
     "VoiceSettings",
     "find_exposed",

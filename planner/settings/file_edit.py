@@ -10,7 +10,8 @@ import contextlib
 import os
 from typing import TYPE_CHECKING, Any
 
-from planner.settings.loader import KEY_SOURCES, same_place
+from planner.settings.loader import KEY_SOURCES
+from planner.settings.model_address import same_place
 from planner.settings.page_fields import TABLE_NEEDS
 from planner.settings.presets import known_as
 

@@ -11,19 +11,21 @@ import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from stat import S_IMODE
-from typing import Any
-from urllib.parse import urlsplit
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, SecretStr, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, SecretStr, ValidationError
 
+from planner.plan.tool import ServerName
 from planner.settings.budget import BudgetSettings, DayLimits, GoalLimits, Price, contradiction
 from planner.settings.limits import LimitSettings
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
+from planner.settings.model_address import same_place
 from planner.settings.mqtt import MqttSettings
 from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import known_as
+from planner.settings.tools import ToolServerSettings, judge_servers, server_tables
 from planner.settings.vision import VisionSettings, with_environment
 from planner.settings.voice import SpeechSettings, VoiceSettings
 from wire import ConfigError
@@ -57,6 +59,8 @@ class Settings(BaseModel):
     mqtt: MqttSettings | None = None
     """None: the robot joins no smart home."""
     limits: LimitSettings = LimitSettings()
+    tools: Annotated[dict[ServerName, ToolServerSettings], Field(max_length=16)] = {}
+    """Servers that a brain with a model may ask, each by the owner's name for it."""
 
 
 def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
@@ -64,7 +68,7 @@ def load_settings(home: Path, environment: Mapping[str, str]) -> Settings:
 
     Raises:
         ConfigError: ``settings_unreadable``, ``settings_malformed``, ``model_incomplete``,
-            ``model_key``, ``voice_key``, ``speech_key``, ``budget_contradictory``.
+            ``model_key``, ``voice_key``, ``speech_key``, ``tools_…``, ``budget_contradictory``.
     """
     tables = _tables(home)
     for sentence in find_exposed(home):
@@ -94,8 +98,12 @@ def judge_tables(given: Mapping[str, Any], home: Path, environment: Mapping[str,
     folder = spoken.get("voice", {}).get("folder")
     if isinstance(folder, str):
         spoken["voice"]["folder"] = home / folder
-    settings = _check({**tables, **spoken, "model": chosen, "vision": vision})
+    own = server_tables(tables)
+    servers = {name: _with_key("tools", own[name], home, environment) for name in own}
+    tools = {"tools": {**tables["tools"], **servers}} if servers else {}
+    settings = _check({**tables, **spoken, **tools, "model": chosen, "vision": vision})
     _need_key(settings.model)
+    judge_servers(settings.tools)
     return settings
 
 
@@ -105,7 +113,9 @@ def find_exposed(home: Path) -> list[str]:
     Raises:
         ConfigError: ``settings_unreadable``, ``settings_malformed``.
     """
-    tables = [t for n in _KEYED if isinstance(t := _tables(home).get(n), dict)]
+    given = _tables(home)
+    keyed = (*map(given.get, _KEYED), *server_tables(given).values())
+    tables = [table for table in keyed if isinstance(table, dict)]
     files = [(home / FILE, any("key" in table for table in tables))]
     apart = (table.get("key_file") for table in tables)
     files += [(home / name, True) for name in apart if isinstance(name, str) and name]
@@ -119,8 +129,8 @@ def list_keys(settings: BaseModel) -> tuple[str, ...]:
         value = getattr(settings, name)
         if isinstance(value, SecretStr):
             found.append(value.get_secret_value())
-        elif isinstance(value, BaseModel):
-            found += list_keys(value)
+        for part in value.values() if isinstance(value, dict) else (value,):
+            found += list_keys(part) if isinstance(part, BaseModel) else ()
     return tuple(found)
 
 
@@ -273,15 +283,6 @@ def _place(model: dict[str, Any]) -> str:
     return str(model.get("url", preset.url if preset is not None else ""))
 
 
-def same_place(one: str, other: str) -> bool:
-    """Return whether two URLs lead to one scheme, host and port; a text that is no URL does not."""
-    try:
-        a, b = urlsplit(one), urlsplit(other)
-        return (a.scheme, a.hostname, a.port) == (b.scheme, b.hostname, b.port)
-    except ValueError:
-        return False
-
-
 def _check(tables: dict[str, Any]) -> Settings:
     try:
         settings = Settings.model_validate(tables)
@@ -327,11 +328,12 @@ _TABLES: dict[str, type[BaseModel]] = {
     "budget.day": DayLimits,
     "budget.price": Price,
     "limits": LimitSettings,
+    "tools": ToolServerSettings,
 }
 
 
 def _table(where: tuple[int | str, ...]) -> str:
-    return ".".join(map(str, where[:-1]))
+    return "tools" if where[0] == "tools" else ".".join(map(str, where[:-1]))
 
 
 def _describe_error(where: tuple[int | str, ...], kind: str, text: str) -> str:

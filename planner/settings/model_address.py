@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from planner.outbound import Address
 from wire import ConfigError
@@ -25,3 +26,12 @@ def need_local_or_allowed(model: ModelSettings) -> Address:
             "allow_offhost = true in [model], or PONS_MODEL_ALLOW_OFFHOST=1",
         )
     return address
+
+
+def same_place(one: str, other: str) -> bool:
+    """Return whether two URLs lead to one scheme, host and port; a text that is no URL does not."""
+    try:
+        a, b = urlsplit(one), urlsplit(other)
+        return (a.scheme, a.hostname, a.port) == (b.scheme, b.hostname, b.port)
+    except ValueError:
+        return False

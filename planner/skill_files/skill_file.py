@@ -35,7 +35,7 @@ KINDS = (".toml", ".py")
 _NAME: TypeAdapter[str] = TypeAdapter(SkillName)
 _KEYS = frozenset({"en", "zh", "about", "parameters", "steps"})
 _BLANK = re.compile(r"\{([a-z][a-z0-9_]*)\}")
-_NEVER = frozenset({"use_skill", "go_to_pose"})
+_NEVER = frozenset({"use_skill", "use_tool", "go_to_pose"})
 """A skill calls none, and gives no point of the map: a person points, and nobody else."""
 _EXAMPLES = {
     ParameterKind.THING: "red cup",

@@ -105,6 +105,7 @@ def findings(settings: LaunchSettings) -> list[HealthFinding]:
         of_robot("ros2", lambda: ros2_checks.ros2(settings.home, robot)),
         sited,
         run_check("model", lambda: model_checks.model(settings.home)),
+        *model_checks.tools(settings.home),
         run_check("recogniser", lambda: model_checks.recogniser(site)),
         run_check("transcription", lambda: voice_checks.transcription(settings.home)),
         run_check("speech", lambda: voice_checks.speech(settings.home)),

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from planner.outbound import Address
+from planner.outbound import Address, CallFailure
 from planner.outbound.reach import trouble_reaching
 from planner.settings import load_settings
 from planner.site import Site
 from pons.doctor.finding import BilingualWords, HealthFinding, fail, ok, warn
 from wire import ConfigError
+
+if TYPE_CHECKING:
+    from planner.settings import ToolServerSettings
 
 _FIX_MODEL = BilingualWords(
     "start the model's server or mend [model] in settings.toml; until then the offline brain plans",
@@ -35,6 +40,50 @@ def model(home: Path) -> HealthFinding:
     if trouble is None:
         return ok("model", f"{where} can be reached", f"{where} 可以连接")
     return warn("model", BilingualWords(f"{where}: {trouble}", f"{where}：{trouble}"), _FIX_MODEL)
+
+
+_FIX_TOOLS = BilingualWords(
+    "start the server or mend its table under [tools]; the robot drives on without it",
+    "请启动服务器或修正 [tools] 中它的表；没有它机器人照常行驶",
+)
+
+
+def tools(home: Path) -> list[HealthFinding]:
+    """Ask each server under [tools] for its tools; none of them is called."""
+    try:
+        chosen = load_settings(home, os.environ)
+    except ConfigError:  # the line on the model tells it
+        return []
+    return [_tool_server(name, server) for name, server in chosen.tools.items()]
+
+
+def _tool_server(name: str, settings: ToolServerSettings) -> HealthFinding:
+    from planner.outbound.tool_server import ToolServer
+    from planner.tool_servers.listing import judge_listing
+
+    async def fetch() -> list[dict[str, object]]:
+        key = settings.key.get_secret_value() if settings.key is not None else ""
+        server = ToolServer(
+            settings.address, key, timeout_s=settings.timeout_s, most_bytes=settings.max_bytes
+        )
+        try:
+            return await server.list_tools()
+        finally:
+            await server.close()
+
+    where = f"tools.{name}"
+    try:
+        listing = judge_listing(name, settings, asyncio.run(fetch()))
+    except CallFailure as failure:
+        told = f"{settings.address.host}:{settings.address.port}: {failure.why}"
+        return warn(where, BilingualWords(told, told), _FIX_TOOLS)
+    told = ", ".join(t.name + " (writes)" * t.writes for t in listing.tools) or "none"
+    rest = "; ".join(f"{left}: {code}" for left, code in listing.left_out)
+    found = BilingualWords(
+        f"may be asked: {told}" + (f"; not: {rest}" if rest else ""),
+        f"可以询问：{told}" + (f"；不可：{rest}" if rest else ""),
+    )
+    return ok(where, found.en, found.zh) if listing.tools else warn(where, found, _FIX_TOOLS)
 
 
 def recogniser(site: Site | None) -> HealthFinding:

@@ -24,11 +24,25 @@ from planner.brain.schema import Message, schema_of
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.usage_meter import Meter
 from planner.language.catalogue import message, say
-from planner.plan import PLAN, BrainTag, Clarify, Code, Language, Refuse, Vocabulary, say_same
+from planner.plan import (
+    PLAN,
+    TOOL_CALLS,
+    BrainTag,
+    Clarify,
+    Code,
+    Language,
+    Refuse,
+    Vocabulary,
+    say_same,
+)
 from planner.settings import ModelSettings
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import httpx
+
+    from planner.plan import Tool
 
 log = logging.getLogger(__name__)
 
@@ -45,6 +59,7 @@ class EndpointBrain:
         transport: httpx.AsyncBaseTransport | None = None,
         meter: Meter | None = None,
         replies: ReplyCollector | None = None,
+        tools: Callable[[], tuple[Tool, ...]] = tuple,
     ) -> None:
         """Judge the address and read the prompt; nothing is asked yet.
 
@@ -55,13 +70,14 @@ class EndpointBrain:
             transport: another than the network, for tests.
             meter: counts every call and may refuse it; None: nobody keeps a budget.
             replies: keeps what the model wrote; None: nothing is kept.
+            tools: lists what servers of the owner's can be asked now.
 
         Raises:
             ConfigError: ``model_url``, ``model_offhost``, ``prompt_missing``,
                 ``prompt_malformed``.
         """
         self._line = Line(settings, home, transport, meter)
-        self._replies = replies or ReplyCollector(0)
+        self._replies, self._tools = replies or ReplyCollector(0), tools
         self.address = self._line.address
         self._prompt = prompt or Prompt.load()
         self._client, self._asker = self._line.client, self._line.asker
@@ -106,6 +122,7 @@ class EndpointBrain:
             BrainDown: the model does not answer, or not within the deadline.
             OutOfBudget: a call was refused by the meter.
         """
+        request = self._with_tools(request)
 
         async def talk(end_s: float) -> ThinkResult:
             return await self._talk(request, end_s, hear)
@@ -116,6 +133,15 @@ class EndpointBrain:
                 hear(Draft(text=say("model_error.slow").of(language), loads=True))
 
         return await self._line.turn(request.goal, talk, "plan", tell_slow)
+
+    def _with_tools(self, request: ThinkRequest) -> ThinkRequest:
+        """Return the request with the tools of now: a model alone is offered any."""
+        tools = self._tools()
+        if not tools:
+            return request
+        names = request.vocabulary.model_copy(update={"tools": tools})
+        runnable = request.runnable | TOOL_CALLS
+        return request.model_copy(update={"vocabulary": names, "runnable": runnable})
 
     async def _talk(self, request: ThinkRequest, end_s: float, hear: Hear | None) -> ThinkResult:
         messages = self._prompt.messages(request)

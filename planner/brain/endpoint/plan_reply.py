@@ -26,13 +26,16 @@ from planner.plan import (
     PLAN,
     RUNNABLE,
     STEPLESS,
+    TOOL_CALLS,
     AnswerPlan,
     Clarify,
     PlanRole,
     Refuse,
     StepPlan,
+    UseTool,
     Vocabulary,
     check_plan,
+    list_nodes,
 )
 
 MAX_TEXT = 600
@@ -86,11 +89,25 @@ def judge(
         of_places = any(_PLACES.intersection(map(str, error["loc"])) for error in errors)
         known = (_known_places(vocabulary),) if of_places else ()
         return Unusable((*map(_describe_error, errors), *known))
+    if (wrong_calls := tuple(_find_wrong_calls(plan, vocabulary))) and runnable >= TOOL_CALLS:
+        return Unusable(wrong_calls[:MAX_REASONS])
     rejection = check_plan(plan, vocabulary, runnable)
     if rejection is not None and rejection.repairable:
         told = [f"{_at(r.step)}{r.code.value}: {clean(r.what)[:80]}" for r in rejection.reasons]
         return Unusable((*told[:MAX_REASONS], _known_places(vocabulary)))
     return plan
+
+
+def _find_wrong_calls(plan: Planned, vocabulary: Vocabulary) -> Iterator[str]:
+    """Yield why a call of a tool is none: it is not offered, or not given what it needs."""
+    for node in list_nodes(plan.steps) if isinstance(plan, StepPlan) else ():
+        if isinstance(call := node.step, UseTool):
+            tool = vocabulary.tool(call.tool)
+            if tool is None:
+                known = ", ".join(each.name for each in vocabulary.tools)
+                yield f"no tool {clean(call.tool)[:80]}; known: {known[:400]}"
+            elif missing := tool.find_missing(call.arguments):
+                yield f"{tool.name} needs {', '.join(missing)}"
 
 
 def _known_places(vocabulary: Vocabulary) -> str:
@@ -216,6 +233,7 @@ def resolve_places(value: Any, vocabulary: Vocabulary, name: str = "", deep: int
     if deep > 2 * MAX_DEPTH + 2:  # too deep anyhow: the plan's own check says so
         return value
     if isinstance(value, dict):
+        value = _in_row(value, vocabulary)
         return {k: resolve_places(v, vocabulary, str(k), deep + 1) for k, v in value.items()}
     if isinstance(value, list):
         return [resolve_places(each, vocabulary, name, deep + 1) for each in value]
@@ -224,6 +242,16 @@ def resolve_places(value: Any, vocabulary: Vocabulary, name: str = "", deep: int
     said = fold_words(value[:MAX_TEXT]).strip().removeprefix("the ")
     found = [e.id for e in vocabulary.entries if said in map(fold_words, e.spellings)]
     return found[0] if len(found) == 1 else value
+
+
+def _in_row(step: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
+    """Return a call whose arguments are named, as models know them, with them in their row."""
+    given = step.get("arguments")
+    tool = vocabulary.tool(str(step.get("tool"))) if isinstance(given, dict) else None
+    if tool is None or not isinstance(given, dict):
+        return step
+    known = [each.name for each in tool.parameters]
+    return step if given.keys() - set(known) else {**step, "arguments": [*map(given.get, known)]}
 
 
 def _blanks(value: Any, name: str = "steps", deep: int = 0) -> Iterator[str]:

@@ -11,6 +11,7 @@ from typing import Any
 from planner.language.catalogue import message, say_or_quote
 from planner.mission.skills.actions import (
     AskImage,
+    CallTool,
     DriveLeg,
     Fail,
     Finish,
@@ -42,9 +43,11 @@ from planner.mission.skills.patrol import patrol
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
 from planner.mission.skills.recall import recall
 from planner.mission.skills.say import say
-from planner.mission.skills.skill_state import STATES, SkillState, SkillStateBase, begin_state
+from planner.mission.skills.skill_state import STATES, SkillState, begin_state
 from planner.mission.skills.stand_at import stand_at
+from planner.mission.skills.state_base import SkillStateBase
 from planner.mission.skills.turn import turn
+from planner.mission.skills.use_tool import use_tool
 from planner.mission.skills.wait import wait
 from planner.mission.skills.wait_for import wait_for
 from planner.plan import Code
@@ -73,6 +76,7 @@ SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProx
         "go_to_object": go_to_object,
         "go_to_point": go_to_point,
         "recall": recall,
+        "use_tool": use_tool,
     }
 )
 
@@ -100,6 +104,7 @@ __all__ = [
     "SKILLS",
     "STATES",
     "AskImage",
+    "CallTool",
     "DriveLeg",
     "Eyesight",
     "Fail",

@@ -13,7 +13,7 @@ from enum import StrEnum
 from typing import Any, Generic, TypeVar, cast
 
 from planner.mission.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
-from planner.mission.skills.skill_state import SkillStateBase
+from planner.mission.skills.state_base import SkillStateBase
 from planner.perception.snapshot import Sight
 from planner.plan import Bilingual, Code, Language, PictureBill, StepRecord
 from planner.site.site_view import SiteView
@@ -200,6 +200,17 @@ class LookUp:
 
 
 @dataclass(frozen=True, slots=True)
+class CallTool:
+    """Ask the step's tool, standing, as soon as the step's beginning is on disk."""
+
+    agreed: bool = False
+    """A person said yes to this call."""
+    seconds: float = ANSWER_S
+    state: SkillStateBase | None = None
+    """Held from now on."""
+
+
+@dataclass(frozen=True, slots=True)
 class Think:
     """Have the brain think again with the sights and answers so far."""
 
@@ -252,6 +263,7 @@ SkillAction = (
     | Observe
     | AskImage
     | LookUp
+    | CallTool
     | Speak
     | Question
     | Think

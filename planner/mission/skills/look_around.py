@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 from planner.mission.skills.actions import DriveLeg, Observe, Scene, Way
 from planner.mission.skills.object_matching import away_m
-from planner.mission.skills.skill_state import LookRoundState, SkillStateBase
+from planner.mission.skills.skill_state import LookRoundState
+from planner.mission.skills.state_base import SkillStateBase
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_at
 from wire import Pose2, wrap
 

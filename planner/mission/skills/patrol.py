@@ -28,7 +28,8 @@ from planner.mission.skills.look_around import look_round
 from planner.mission.skills.object_matching import drop_doubles, list_confirmed
 from planner.mission.skills.result_text import list_things, room_name
 from planner.mission.skills.search import make_filter
-from planner.mission.skills.skill_state import PatrolState, SkillStateBase
+from planner.mission.skills.skill_state import PatrolState
+from planner.mission.skills.state_base import SkillStateBase
 from planner.mission.skills.viewpoints import HERE, Viewpoint, room_of
 from planner.plan import Bilingual, Code, PatrolSighting, say_same
 

@@ -10,31 +10,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import StrEnum
 from types import MappingProxyType
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Literal
 
 from pydantic import Field
 
+from planner.mission.skills.state_base import SkillStateBase
 from planner.plan import Bilingual, Frozen, PatrolSighting
 
 Point3 = tuple[float, float, float]
 """x, y, height [m] in ``map``."""
-
-
-class SkillStateBase(Frozen):
-    """Be the base of what a skill remembers."""
-
-    def but(self, **changes: Any) -> Self:
-        """Return this state with changes.
-
-        Raises:
-            TypeError: this skill remembers no such thing.
-        """
-        foreign = changes.keys() - type(self).model_fields.keys()
-        if foreign:
-            name = type(self).__name__
-            known = ", ".join(sorted(type(self).model_fields))
-            raise TypeError(f"{name} has no {', '.join(sorted(foreign))}; it has {known}")
-        return self.model_copy(update=changes)
 
 
 class LookRoundState(SkillStateBase):
@@ -321,9 +305,20 @@ class WaitForState(SkillStateBase):
     """Times that somebody said something else than the word."""
 
 
+class ToolState(SkillStateBase):
+    """Remember the question before a call that writes, and that the call was perhaps made."""
+
+    kind: Literal["use_tool"] = "use_tool"
+    question: Bilingual | None = None
+    is_again: bool = False
+    """It was asked once more after an answer that was neither yes nor no."""
+    is_sent: bool = False
+
+
 SkillState = Annotated[
     AskState | CountState | ExploreState | FindState | FollowPersonState | GoToObjectState
-    | GoToPointState | LookState | PatrolState | StandAtState | WaitForState,
+    | GoToPointState | LookState | PatrolState | StandAtState | ToolState
+    | WaitForState,
     Field(discriminator="kind"),
 ]  # fmt: skip
 STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
@@ -338,6 +333,7 @@ STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
         "look": LookState,
         "patrol": PatrolState,
         "stand_at": StandAtState,
+        "use_tool": ToolState,
         "wait_for": WaitForState,
     }
 )

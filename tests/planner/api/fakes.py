@@ -40,6 +40,7 @@ from planner.setup_wizard import SetupWizard
 from planner.site import FenceProposals, KnownPlaces, Site
 from planner.skill_files.folder import SkillFolder
 from planner.state_database import StateDatabase
+from planner.tool_servers import ToolDesk
 from planner.voice import Recognition, Sound, StopListener, VoiceAbilities, VoiceFailure
 from planner.watching import PlannerFigures
 from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
@@ -401,6 +402,7 @@ class FakeServices:
         self.people = People(StateDatabase(HOME))
         self.fences = FenceProposals.in_home(HOME)
         self.skills = SkillFolder(HOME, lambda: self.memory.vocabulary)
+        self.tools = ToolDesk({}, StateDatabase(HOME))
         self.rehearser = Rehearser(
             self.memory,
             RobotDescription(),

@@ -11,6 +11,7 @@ from planner.plan import (
     NEEDS_CAMERA,
     PLAN,
     RUNNABLE,
+    TOOL_CALLS,
 )
 
 
@@ -22,6 +23,6 @@ def test_every_kind_is_what_a_plan_may_hold() -> None:
         if "properties" in shape
     }
     kinds -= {None, "plan", "answer", "clarify", "refuse"}
-    assert kinds == EVERY_KIND | GIVEN | CONDITIONS | CALLS
+    assert kinds == EVERY_KIND | GIVEN | CONDITIONS | CALLS | TOOL_CALLS
     assert RUNNABLE | NEEDS_CAMERA | DRIVES - GIVEN <= EVERY_KIND
-    assert not EVERY_KIND & (GIVEN | CALLS)
+    assert not EVERY_KIND & (GIVEN | CALLS | TOOL_CALLS)

@@ -21,6 +21,7 @@ from planner.plan import (
     NEEDS_CAMERA,
     PLAN,
     RUNNABLE,
+    TOOL_CALLS,
     AnswerPlan,
     Bilingual,
     BrainTag,
@@ -73,6 +74,7 @@ STEPS: list[dict[str, Any]] = [
     {"kind": "follow", "object": "the person"},
     {"kind": "explore"},
     {"kind": "use_skill", "name": "evening_round", "arguments": ["kitchen", ""]},
+    {"kind": "use_tool", "tool": "calendar.events", "arguments": ["today", ""]},
     {"kind": "recall", "object": "red cup", "place": "kitchen", "span": "morning"},
     {"kind": "wait_for", "word": "go", "seconds": 60.0},
     {
@@ -201,7 +203,8 @@ def test_what_cannot_run_is_refused_with_its_code(step: dict[str, Any]) -> None:
         return
     assert verdict is not None
     kinds = (
-        (NEEDS_CAMERA, Code.NO_CAMERA), (GIVEN, Code.POINT_NOT_GIVEN), (CALLS, Code.NO_CAPABILITY),
+        (NEEDS_CAMERA, Code.NO_CAMERA), (GIVEN, Code.POINT_NOT_GIVEN),
+        (CALLS | TOOL_CALLS, Code.NO_CAPABILITY),
     )  # fmt: skip
     lack = next((code for kinds_of, code in kinds if step["kind"] in kinds_of), Code.NOT_MAPPING)
     assert rejection_outcome(verdict, HOME).code is lack

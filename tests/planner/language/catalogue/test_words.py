@@ -32,7 +32,7 @@ from planner.language.catalogue import (
 from planner.language.place_lists import known_places
 from planner.mission.errors import JournalDown
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Entry, Language, Vocabulary, say_same
-from planner.plan.steps import CALLS, CONTROL, EVERY_KIND, GIVEN
+from planner.plan.steps import CALLS, CONTROL, EVERY_KIND, GIVEN, TOOL_CALLS
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -165,7 +165,7 @@ def test_what_is_put_into_a_chinese_sentence_is_chinese(group: str) -> None:
 
 
 def test_every_step_that_a_robot_may_lack_the_means_for_has_words() -> None:
-    assert set(CATALOGUE.keys("step_kind")) == (EVERY_KIND | GIVEN | CALLS) - CONTROL
+    assert set(CATALOGUE.keys("step_kind")) == (EVERY_KIND | GIVEN | CALLS | TOOL_CALLS) - CONTROL
 
 
 def test_a_journal_that_fails_is_told_in_each_language() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from planner.mission.skills import Eyesight, act_of
-from planner.mission.skills.skill_state import SkillStateBase
+from planner.mission.skills.state_base import SkillStateBase
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from tests.planner.mission.skills.scenes import scene
 from wire import CameraConfig, Pose2

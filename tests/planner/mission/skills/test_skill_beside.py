@@ -9,8 +9,9 @@ import pytest
 from planner.language.questions import Relation
 from planner.mission.skills import DriveLeg, Eyesight, Fail, Finish, Observe, WantedObject, act_of
 from planner.mission.skills.object_matching import picks_out, read_object
-from planner.mission.skills.skill_state import CountState, GoToObjectState, SkillStateBase
+from planner.mission.skills.skill_state import CountState, GoToObjectState
 from planner.mission.skills.spatial_relations import stands
+from planner.mission.skills.state_base import SkillStateBase
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import Code, Language
 from tests.planner.mission.skills.scenes import scene
