@@ -84,7 +84,9 @@ export function Question({ goal }: { goal: Goal }) {
           value={reply.value}
           onInput={(event) => (reply.value = event.currentTarget.value)}
         />
-        <button type="submit">{t("goal.reply.send")}</button>
+        <button type="submit" disabled={reply.value.trim() === ""}>
+          {t("goal.reply.send")}
+        </button>
       </form>
     </div>
   );

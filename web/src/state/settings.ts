@@ -13,6 +13,7 @@ import {
   type Value,
 } from "../net/settings";
 import { explain, tell } from "./acts";
+import { isOwner } from "./asker";
 
 export const GROUPS = ["model", "eyes", "voice", "limits", "notices", "budget"] as const;
 export type Group = (typeof GROUPS)[number];
@@ -29,6 +30,10 @@ export const isRestarting = signal(false);
 export const isPending = computed(() => settings.value?.fields.some((f) => f.is_pending) ?? false);
 
 export async function look(): Promise<void> {
+  if (isOwner.peek() === false) {
+    trouble.value = t("set.owners");
+    return;
+  }
   try {
     settings.value = await fetchSettings();
     trouble.value = null;
