@@ -71,11 +71,24 @@ def is_at(robot: Robot, mapping: str | None) -> bool:
     return told.status == 200 and bool(told.body["mapping"] == mapping)
 
 
+def localization(robot: Robot) -> Json:
+    """Return what the page says of where the robot is."""
+    told: Json = robot.system.http("GET", "/v1/localization").body
+    return told
+
+
+def is_localized(robot: Robot) -> bool:
+    """Tell whether the robot knows where it is on the map that it runs on now."""
+    localizer = localization(robot).get("localizer") or {}
+    return bool(localizer.get("state") == "tracking")
+
+
 def change_over(robot: Robot, path: str, mapping: str | None) -> None:
     """Have the wizard begin or save a map, and wait until the robot stands ready on it."""
     asked = robot.system.http("POST", path, {"source": "page"})
     assert asked.status == 202, asked.body
     until(lambda: is_at(robot, mapping), CHANGE_LIMIT_S, path, robot.system.read_log)
+    until(lambda: is_localized(robot), CHANGE_LIMIT_S, "a pose", lambda: localization(robot))
     robot.rest()
 
 

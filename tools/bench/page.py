@@ -119,7 +119,7 @@ class Newcomer:
 
 
 def answer_a_question(person: Newcomer) -> None:
-    """Answer what the robot asks in words of one's own: it offers nothing, and names what it knows."""
+    """Answer what the robot asks in words of one's own: it names what it knows, and offers none."""
     person.read("I know no place called")
     person.steps += 1
     person.page.get_by_role("textbox", name="Answer in your own words").first.fill(ANSWER)
