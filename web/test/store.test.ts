@@ -1,5 +1,16 @@
 import { expect, it, vi } from "vitest";
-import { began, layers, receive, scan, shown, startClock } from "../src/state/store";
+import {
+  age,
+  began,
+  goals,
+  layers,
+  open,
+  pageFresh,
+  receive,
+  scan,
+  shown,
+  startClock,
+} from "../src/state/store";
 import { robot, snapshot } from "./examples";
 
 const hear = (seq: number, frame: object): void => receive(JSON.stringify({ seq, ...frame }));
@@ -23,5 +34,24 @@ it("draws a scan with the robot's next word, or by the clock where the robot is 
   vi.advanceTimersByTime(400);
   expect(scan.value).toEqual([]);
   expect(layers.value.cells).toEqual([]);
+  vi.useRealTimers();
+});
+
+it("shows what is so after an hour without a socket, and says that all was old until then", () => {
+  vi.useFakeTimers();
+  startClock();
+  began();
+  receive(JSON.stringify(snapshot(1)));
+  vi.advanceTimersByTime(200);
+  expect(pageFresh.value).toBe(true);
+  open.value = false;
+  vi.advanceTimersByTime(3_600_000);
+  expect(pageFresh.value).toBe(false);
+  expect(age("page")).toBeGreaterThan(3_500);
+  began();
+  expect(pageFresh.value).toBe(false); // a socket alone says nothing of the robot
+  receive(JSON.stringify({ ...snapshot(1), goals: [] }));
+  vi.advanceTimersByTime(200);
+  expect([pageFresh.value, goals.value.length]).toEqual([true, 0]);
   vi.useRealTimers();
 });
