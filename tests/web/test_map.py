@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from itertools import combinations
+from math import cos, pi, sin
 from pathlib import Path
 from typing import Any
 
@@ -196,3 +197,44 @@ def test_a_place_is_dragged_or_moved_by_keys_and_stays_where_it_is_refused(
         page.keyboard.press("Enter")
     page.locator("#announcer", has_text="Moved").wait_for()
     assert plant(planner) != pytest.approx(FREE[1], abs=0.05)
+
+
+def touch(page: Page, kind: str, *points: tuple[float, float]) -> None:
+    """Put fingers on the screen, move or lift them, as a touch screen does."""
+    fingers = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
+    session = page.context.new_cdp_session(page)
+    session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
+    session.detach()
+
+
+def width_px(page: Page) -> float:
+    """Return how wide the map is on the screen [px]; while it is not turned."""
+    box = page.locator(".drawing").bounding_box()
+    assert box is not None
+    return box["width"]
+
+
+def test_two_fingers_zoom_and_turn_the_map_and_are_no_tap(opened: Open) -> None:
+    page = opened(PHONE, has_touch=True, is_mobile=True)
+    box = page.locator("#map").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    fitted, compass = width_px(page), page.locator("#compass svg")
+    touch(page, "touchStart", (x - 40, y), (x + 40, y))
+    for way in range(45, 81, 5):
+        touch(page, "touchMove", (x - way, y), (x + way, y))
+    touch(page, "touchEnd")
+    page.wait_for_timeout(FRAMES_MS)
+    assert width_px(page) / fitted == pytest.approx(2.0, rel=0.1)
+    assert compass.count() == 0, "two fingers that zoom turn nothing"
+    touch(page, "touchStart", (x - 60, y), (x + 60, y))
+    for step in range(1, 13):
+        dx, dy = 60 * cos(step * pi / 24), 60 * sin(step * pi / 24)
+        touch(page, "touchMove", (x - dx, y - dy), (x + dx, y + dy))
+    touch(page, "touchEnd")
+    turned = float(compass.evaluate("e => parseFloat(e.style.rotate)"))
+    assert pi / 4 < turned < pi / 2, "so far as the fingers turned, once they clearly did"
+    assert page.locator(".point-menu").count() == 0
+    page.locator("#compass").tap()
+    compass.wait_for(state="detached")
+    assert width_px(page) / fitted == pytest.approx(2.0, rel=0.1)

@@ -25,6 +25,7 @@ import { fetchGrid, fetchObjects, fetchPlaces, fetchVoice } from "./net/api";
 import { EventSocket } from "./net/socket";
 import { setKey } from "./net/proof";
 import { startToken, tokenNeeded } from "./net/token";
+import { learnAsker } from "./state/asker";
 import {
   began,
   grid,
@@ -123,6 +124,7 @@ async function load(): Promise<void> {
   loading = true;
   try {
     const [site, cells, heard] = await Promise.all([fetchPlaces(), fetchGrid(), fetchVoice()]);
+    void learnAsker();
     voice.value = heard;
     learnPlaces(site);
     grid.value = cells;

@@ -11,9 +11,11 @@ import pytest
 from starlette.testclient import TestClient
 
 from planner.api import Access
-from planner.orders.order import MAX_ORDERS
+from planner.orders.order import MAX_ORDERS, Firing, FiringState
+from planner.orders.store import OrderStore
 from planner.plan import QuietHours
 from planner.plan.timing import CronRule
+from planner.state_database import StateDatabase
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of
 from tests.planner.orders.fakes import NOON_UNIX_S, FakeMissions, MovedClocks, standing_orders
@@ -74,6 +76,25 @@ def test_runs_of_all_orders_are_listed_and_bounded(client: TestClient) -> None:
     give(client, text="every evening at eight go to the kitchen")
     assert client.get("/v1/orders/firings").json() == {"firings": []}
     assert client.get("/v1/orders/firings?limit=0").status_code == 422
+
+
+def test_a_run_that_was_missed_is_told_with_its_reason_in_both_languages(
+    client: TestClient, tmp_path: Path
+) -> None:
+    order = give(client, text="every evening at eight go to the kitchen").json()["id"]
+    missed = Firing(
+        order=order, serial=1, due_unix_s=NOON_UNIX_S - 3_600.0, at_unix_s=NOON_UNIX_S,
+        state=FiringState.MISSED, reason="disarmed",
+    )  # fmt: skip
+    OrderStore(StateDatabase(tmp_path)).keep([], [missed])
+    [told] = client.get("/v1/orders/firings").json()["firings"]
+    assert (told["state"], told["reason"]) == ("missed", "disarmed")
+    assert told["text"] == "every evening at eight go to the kitchen"
+    assert told["told"] == {
+        "en": "Missed: “every evening at eight go to the kitchen” (today 11:00), "
+        "because I was not armed.",
+        "zh": "错过了：“every evening at eight go to the kitchen”（今天 11:00），因为我没有解锁。",
+    }
 
 
 def test_a_day_is_left_out_until_the_order_is_resumed(client: TestClient) -> None:

@@ -18,6 +18,7 @@ from planner.mission.state import Mission
 from planner.plan import Code, GoalState, Language, Outcome
 
 DAY_S = 86_400.0
+MANY = 10_000
 
 
 def mission(order: int, text: str, state: GoalState = GoalState.SUCCEEDED) -> Mission:
@@ -59,6 +60,21 @@ def test_pages_follow_each_other_without_a_gap_while_new_goals_come(tmp_path: Pa
     ids = [goal.id for page in (first, second, third) for goal in page.goals]
     assert ids == ["g5", "g4", "g3", "g2", "g1"]
     assert third.next is None
+
+
+def test_ten_thousand_missions_are_read_page_by_page_and_none_is_left_out(tmp_path: Path) -> None:
+    history = written(tmp_path, mission(1, "the oldest"))
+    engine = sa.create_engine(f"sqlite:///{tmp_path / goal_history.FILE}")
+    more = [goal_history.row_of(mission(n, f"goal {n}")) for n in range(2, MANY + 1)]
+    with engine.begin() as connection:
+        connection.execute(sa.insert(goal_history.rows), more)
+    engine.dispose()
+    before, ids = None, []
+    while not ids or before is not None:
+        page = found(history, HistoryQuery(before=before, limit=500))
+        before, ids = page.next, [*ids, *(goal.id for goal in page.goals)]
+    assert ids == [f"g{n}" for n in range(MANY, 0, -1)]
+    assert [goal.id for goal in found(history, HistoryQuery(search="oldest")).goals] == ["g1"]
 
 
 @pytest.mark.parametrize(

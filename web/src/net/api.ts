@@ -309,9 +309,20 @@ export async function forgetMemories(): Promise<number> {
   return ((await call("DELETE", "v1/memory")) as { forgotten: number }).forgotten;
 }
 
+type Askers = { readonly you: Person | null; readonly people: readonly Person[] | null };
+
 /** Return who may use the robot; null to anybody but its owner. */
 export async function listPeople(): Promise<readonly Person[] | null> {
-  return ((await call("GET", "v1/people")) as { people: readonly Person[] | null }).people;
+  return ((await call("GET", "v1/people")) as Askers).people;
+}
+
+export type Asker = { readonly role: PersonRole; readonly isOwner: boolean };
+
+/** Return who holds this page's token; the owner and the token that only looks are no persons. */
+export async function fetchAsker(): Promise<Asker> {
+  const { you, people } = (await call("GET", "v1/people")) as Askers;
+  if (people !== null) return { role: "operator", isOwner: true };
+  return { role: you?.role ?? "viewer", isOwner: false };
 }
 
 /** Add a person; the token in the answer is told this once. */

@@ -61,7 +61,9 @@ export function QuestionForm(asked: {
           value={reply.value}
           onInput={(event) => (reply.value = event.currentTarget.value)}
         />
-        <button type="submit">{t("goal.reply.send")}</button>
+        <button type="submit" disabled={reply.value.trim() === ""}>
+          {t("goal.reply.send")}
+        </button>
       </form>
     </div>
   );

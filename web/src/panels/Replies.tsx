@@ -2,13 +2,14 @@
 import { useSignal, type Signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { t, word } from "../i18n";
+import { mayReadReplies } from "../state/asker";
 import { fetchReplies, wasModelAsked } from "../state/replies";
 import type { Goal, ModelReply } from "../wire/types";
 import { clock } from "./format";
 
 export function Replies({ goal }: { goal: Goal }) {
   const found = useSignal<readonly ModelReply[]>([]);
-  const asked = wasModelAsked(goal);
+  const asked = wasModelAsked(goal) && mayReadReplies.value;
   useEffect(() => {
     if (asked) void fetchInto(found, goal.id);
   }, [goal.id, goal.state, asked, found]);

@@ -22,6 +22,7 @@ import {
   tryModel,
   type,
 } from "../state/settings";
+import { isOwner } from "../state/asker";
 import { inSetup } from "../state/trial";
 import { toTeaching } from "./Tabs";
 import { Wizard } from "./Wizard";
@@ -48,7 +49,7 @@ export function SettingsTab() {
       {(isPending.value || isRestarting.value) && <NextStart />}
       {now !== null && GROUPS.map((group) => <GroupCard key={group} group={group} />)}
       {now !== null && <Places />}
-      {!inSetup.value && <Wizard />}
+      {!inSetup.value && isOwner.value !== false && <Wizard />}
     </>
   );
 }

@@ -2,6 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { say, t, word } from "../i18n";
 import { call } from "../net/api";
+import { mayForesee } from "../state/asker";
 import { explain, tell } from "../state/note";
 import { currentGoals } from "../state/store";
 import type { Bilingual, Goal } from "../wire/types";
@@ -51,7 +52,7 @@ let asked = 0;
 /** Show what a yes would do as soon as one is asked for; put it away with the question. */
 export function startRehearsals(): void {
   effect(() => {
-    const goal = waitsFor.value;
+    const goal = mayForesee.value ? waitsFor.value : null;
     if (goal !== null) void rehearse({ goal }, true);
     else if (shown.peek() && "goal" in (shown.peek()?.of ?? {})) put(null);
   });

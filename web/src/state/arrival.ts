@@ -4,6 +4,7 @@ import { timeToGo } from "../map/outline";
 import { call } from "../net/api";
 import type { Rehearsal, RehearsedStep } from "../rehearse/rehearsal";
 import type { Step } from "../wire/types";
+import { mayForesee } from "./asker";
 import { pace } from "./pointing";
 import { goals } from "./store";
 
@@ -51,7 +52,7 @@ export const toGo = computed(() => {
 export function startArrivals(): () => void {
   return effect(() => {
     const goal = runningId.value;
-    if (goal !== null && plan.peek()?.goal !== goal) void foresee(goal);
+    if (goal !== null && mayForesee.value && plan.peek()?.goal !== goal) void foresee(goal);
   });
 }
 

@@ -12,6 +12,7 @@ import {
   testModel,
   type Value,
 } from "../net/settings";
+import { isOwner } from "./asker";
 import { explain, tell } from "./note";
 
 export const GROUPS = ["model", "eyes", "voice", "limits", "notices", "budget"] as const;
@@ -29,6 +30,10 @@ export const isRestarting = signal(false);
 export const isPending = computed(() => settings.value?.fields.some((f) => f.is_pending) ?? false);
 
 export async function look(): Promise<void> {
+  if (isOwner.peek() === false) {
+    trouble.value = t("set.owners");
+    return;
+  }
   try {
     settings.value = await fetchSettings();
     trouble.value = null;

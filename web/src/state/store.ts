@@ -3,6 +3,7 @@ import { batch, computed, signal } from "@preact/signals";
 import { decode } from "../wire/decode";
 import type {
   Candidate,
+  Frame,
   Goal,
   Grid,
   Objects,
@@ -112,11 +113,21 @@ export const scanFresh = computed(() => fresh(age("scan")));
 export const pageHeard = computed(() => age("page") !== null);
 export const bridgeHeard = computed(() => age("status") !== null);
 
-/** Take what came over the socket. */
+/** What a person need not see before the robot's next word: each alone would cost a frame of its own. */
+const PATIENT: ReadonlySet<Frame["kind"]> = new Set(["scan", "progress", "obstacles"]);
+let waiting: readonly Frame[] = [];
+
+/** Take what came over the socket, in its order; what is patient is drawn with the next of the others. */
 export function receive(data: unknown): void {
-  const at = moment();
+  const frame = decode(data);
+  if (frame !== null && PATIENT.has(frame.kind)) waiting = [...waiting, frame];
+  else take([...waiting, frame], moment());
+}
+
+function take(frames: readonly (Frame | null)[], at: Moment): void {
+  waiting = [];
   batch(() => {
-    model.value = advance(model.value, decode(data), at);
+    model.value = frames.reduce((known, frame) => advance(known, frame, at), model.value);
     if (due(at) || turning(model.value.robot) !== turning(shown.value)) show(at);
   });
   const { robot: seen, about: body } = model.value;
@@ -135,6 +146,7 @@ function show(at: Moment): void {
 }
 
 export function began(): void {
+  waiting = []; // of the connection that is gone
   batch(() => {
     model.value = connected(model.value);
     open.value = true;
@@ -157,6 +169,7 @@ export function learnThings({ objects }: Objects): void {
 export function startClock(): void {
   setInterval(() => {
     const at = moment();
-    if (due(at)) show(at);
+    if (waiting.length > 0) take(waiting, at);
+    else if (due(at)) show(at);
   }, TICK_MS);
 }
