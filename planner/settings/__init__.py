@@ -11,6 +11,7 @@ from planner.settings.loader import (
     load_settings,
     place_of,
     same_place,
+    with_published_price,
 )
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
@@ -51,4 +52,5 @@ __all__ = [
     "load_settings",
     "place_of",
     "same_place",
+    "with_published_price",
 ]
