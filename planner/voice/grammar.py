@@ -138,7 +138,7 @@ def language_of(
     )
     place = any_of(*kept) if kept else None
     owners = [_sentence(each, place) for each in own if place is not None or PLACE not in each]
-    orders = one_of(_orders(place), *owners)
+    orders = one_of(_orders(place), *owners) if owners else _orders(place)
     decoys = _decoys(place)
     return SpokenLanguage(
         _file(one_of(orders, decoys)), re.compile(orders.pattern), kept, left_out + unsaid, own

@@ -57,7 +57,7 @@ def test_an_order_of_the_owners_is_heard_and_no_other_sentence_for_it(ears: Sphi
     for text in ("do the evening round", "do the evening round and end in the kitchen"):
         heard = hear(taught, speak(text, "en-us"))
         assert (heard.transcript, heard.understood) == (text, True)
-        assert not hear(ears, speak(text, "en-us")).understood
+        assert hear(ears, speak(text, "en-us")).transcript != text
     for text in ("what a nice evening it is", "we are going out this evening"):
         assert not hear(taught, speak(text, "en-us")).understood, text
     for text in ("go to the kitchen", "stop"):

@@ -730,7 +730,7 @@ export const en = {
   "theme.dark": "dark",
   "skills.title": "Skills of your own",
   "skills.how":
-    "Say one of its sentences: [this] may be left out, (this|that) is one of them, {this} is yours to name. After an order say “remember that as the evening round”, and it is one.",
+    "Say one of its sentences: [this] may be left out, (this|that) is one of them, {…} is for you to fill. After an order say “remember that as the evening round”, and it is one.",
   "skills.broken": "Files that are not skills",
   "skills.at": "{file}, line {line}",
   "skills.folder": "Their files: {folder}",

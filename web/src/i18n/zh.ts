@@ -719,7 +719,7 @@ export const zh: Record<Key, string> = {
   "theme.dark": "深色",
   "skills.title": "自定义技能",
   "skills.how":
-    "说出其中一句即可：[可省略]，(任选|其一)，{由您填写}。下达任务后说“把这个记成晚间巡视”，就会存成技能。",
+    "说出其中一句即可：[可省略]，(任选|其一)，{…}由您填写。下达任务后说“把这个记成晚间巡视”，就会存成技能。",
   "skills.broken": "不是技能的文件",
   "skills.at": "{file}，第 {line} 行",
   "skills.folder": "文件在：{folder}",
