@@ -115,7 +115,7 @@ class Planner:
         self.memory = KnownPlaces(self.site, taught, radius_m=radius_m, marks=drawn)
         if self._model is not None:
             self._model.warm(self.memory.vocabulary)
-        self._voice = VoiceParts(self.settings, self._list_spoken_names)
+        self._voice = VoiceParts(self.settings, self.memory)
         self.memory.listen(self._voice.learn_names)
         self.ears, self.speaker = self._voice.recogniser(), self._voice.speaker
         link = self._open_link()
@@ -224,10 +224,6 @@ class Planner:
     def figures(self) -> PlannerFigures:
         """Return the counters of this planner."""
         return PlannerFigures(monotonic)
-
-    def _list_spoken_names(self) -> list[str]:
-        """Return the English names that may be said, the taught ones too."""
-        return [name for place in self.memory.places for name in place.said_in_english]
 
     def fence_is_old(self) -> bool:
         """Say whether the bridge holds what the site's fence.json has become since our start."""

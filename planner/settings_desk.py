@@ -19,7 +19,7 @@ from planner.orders.zone import find_zone
 from planner.outbound import Address
 from planner.outbound.reach import trouble_reaching
 from planner.plan import QuietHours
-from planner.settings import FILE, Settings, judge_tables
+from planner.settings import FILE, Settings, judge_tables, with_published_price
 from planner.settings.file_edit import Value, edit_text, replace_settings
 from planner.settings.loader import parse_settings, read_file
 from planner.settings.model_address import need_local_or_allowed
@@ -123,7 +123,8 @@ class SettingsDesk:
             except (ValueError, TypeError) as error:
                 raise SettingsRefusal(MALFORMED, f"{FILE} is written otherwise: {error}") from None
             after = text.encode()
-            saved = judge_tables(parse_settings(after, path), self._home, self._environment)
+            tables = parse_settings(after, path)
+            saved = judge_tables(tables, self._home, self._environment)
             refuse_unstartable(saved, self._environment)
             names = sorted(changes)
             with self._database.change() as connection:
@@ -138,7 +139,7 @@ class SettingsDesk:
                 )
                 replace_settings(path, raw, after)
             log.info("settings changed by %s: %s", by, ", ".join(names))
-            self._bring_into_force(saved)
+            self._bring_into_force(saved, has_price="price" in tables.get("budget", {}))
         return self.view()
 
     def model_to_test(self, url: str | None) -> tuple[str, Address]:
@@ -157,7 +158,12 @@ class SettingsDesk:
             raise SettingsRefusal("model_unset", "no model is set")
         return model.name, Address.parse(model.url)
 
-    def _bring_into_force(self, saved: Settings) -> None:
+    def _bring_into_force(self, saved: Settings, *, has_price: bool) -> None:
+        if not has_price:  # the saved model's, while the one of before is asked until a start
+            bare = saved.budget.model_copy(update={"price": None})
+            saved = with_published_price(
+                saved.model_copy(update={"budget": bare}), self._in_force.model
+            )
         self._adopt(saved)
         self._in_force = self._in_force.model_copy(update={"budget": saved.budget})
 

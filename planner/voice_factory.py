@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
 
 from planner.plan import Language
 from planner.settings import Settings
+from planner.site import KnownPlaces
+from planner.skill_files.words import list_spoken
 from planner.voice import Ears, Recogniser, VoiceAbilities, VoiceWorker
+from planner.voice.grammar import PLACE
 from planner.voice.sherpa_model import open_model
 from planner.voice.speech_engines import open_speech
 from planner.voice.transcription import open_caller
@@ -18,19 +20,19 @@ log = logging.getLogger(__name__)
 class VoiceParts:
     """Hold recognisers and the robot's own voice."""
 
-    def __init__(self, settings: Settings, names: Callable[[], list[str]]) -> None:
+    def __init__(self, settings: Settings, known: KnownPlaces) -> None:
         """Judge what is set; nothing is started.
 
         Args:
             settings: the owner's.
-            names: returns the English names that may be said now.
+            known: the places whose English names may be said, and the skills.
 
         Raises:
             ConfigError: a setting can never work; see ``open_caller``, ``open_model`` and
                 ``open_speech``.
         """
-        self._settings, self._names = settings, names
-        self._grammar = VoiceWorker(names())
+        self._settings, self._known = settings, known
+        self._grammar = VoiceWorker(self._list_names())
         self._server = open_caller(settings.voice)
         self._model = open_model(settings.voice)
         self.speaker = open_speech(settings.speech)
@@ -47,8 +49,11 @@ class VoiceParts:
         return self._grammar
 
     def learn_names(self) -> None:
-        """Hear the names of now from now on."""
-        self._grammar.know(self._names())
+        """Hear the names and orders of now from now on."""
+        self._grammar.know(self._list_names(), list_spoken(self._known.vocabulary, PLACE))
+
+    def _list_names(self) -> list[str]:
+        return [name for place in self._known.places for name in place.said_in_english]
 
     def abilities(self) -> VoiceAbilities:
         """Show what is heard and spoken."""

@@ -18,7 +18,7 @@ EXIT_USAGE = 2
 def become_fleet(settings: LaunchSettings, words: list[str]) -> int:
     """Be ``pons fleet``, by becoming its process."""
     if find_spec("dbos") is None:
-        return _tell_missing("fleet")
+        return tell_missing("fleet")
     sys.stdout.flush()
     environment = {**os.environ, "PONS_HOME": str(settings.home)}
     os.execve(sys.executable, [sys.executable, "-m", "fleet", *words], environment)
@@ -32,11 +32,12 @@ def serve_mcp(settings: LaunchSettings, words: list[str]) -> int:
     except ModuleNotFoundError as missing:
         if missing.name not in ("mcp", "mcp_types"):
             raise
-        return _tell_missing("mcp")
+        return tell_missing("mcp")
     return serve(settings, words)
 
 
-def _tell_missing(extra: str) -> int:
+def tell_missing(extra: str) -> int:
+    """Say how an extra is installed; return the exit status of that."""
     cure = f"pip install 'pons-robot[{extra}]'"
     told = pick(f"the library is not here; install it: {cure}", f"缺少所需的库；请安装：{cure}")
     print(f"{extra}_missing: {told}", file=sys.stderr)

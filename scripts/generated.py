@@ -34,6 +34,7 @@ GENERATORS = (
     Generator("planner.openapi", "openapi.json"),
     Generator("scripts.page_words", "web/src/i18n/"),
     Generator("scripts.locked_extra", "pyproject.toml, extra locked"),
+    Generator("scripts.model_prices", "planner/settings/model_prices.json"),
     Generator("scripts.sbom", "sbom.cdx.json, docs/licences.md"),
     Generator("scripts.reference", "docs/http.md, robot-toml.md, settings-toml.md, codes.md, adr/"),
     Generator("scripts.assistant_pages", "AGENTS.md, llms.txt"),

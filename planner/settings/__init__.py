@@ -10,6 +10,7 @@ from planner.settings.loader import (
     list_keys,
     load_settings,
     place_of,
+    with_published_price,
 )
 from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
@@ -53,4 +54,5 @@ __all__ = [
     "load_settings",
     "place_of",
     "same_place",
+    "with_published_price",
 ]

@@ -22,6 +22,7 @@ from planner.settings.memory import MemorySettings
 from planner.settings.mission import MissionSettings
 from planner.settings.model import ModelSettings
 from planner.settings.model_address import same_place
+from planner.settings.model_prices import find_published_price
 from planner.settings.mqtt import MqttSettings
 from planner.settings.orders import NotifySettings, OrderSettings
 from planner.settings.presets import known_as
@@ -292,11 +293,21 @@ def _check(tables: dict[str, Any]) -> Settings:
         ]
         code = "model_incomplete" if all("missing" in p for p in problems) else "settings_malformed"
         raise ConfigError(code, f"{FILE}: {'; '.join(problems)}") from None
+    settings = with_published_price(settings, settings.model)
     most = settings.model.max_tokens if settings.model is not None else None
     wrong_budget = contradiction(settings.budget, most)
     if wrong_budget is not None:
         raise ConfigError("budget_contradictory", f"{FILE}: {wrong_budget}")
     return settings
+
+
+def with_published_price(settings: Settings, model: ModelSettings | None) -> Settings:
+    """Return settings in which a model costs what its server publishes, unless the owner says."""
+    if model is None or settings.budget.price is not None:
+        return settings
+    price = find_published_price(model.url, model.name)
+    budget = settings.budget.model_copy(update={"price": price})
+    return settings.model_copy(update={"budget": budget})
 
 
 def _need_key(model: ModelSettings | None) -> None:

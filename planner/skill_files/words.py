@@ -6,7 +6,9 @@ that is read without it. Each sentence is tried as people would say it.
 
 from __future__ import annotations
 
+import contextlib
 import re
+from functools import lru_cache
 from itertools import islice, product
 
 from planner.language.commands import intent_of
@@ -67,6 +69,29 @@ def check_words(skill: Skill, names: Vocabulary, others: Vocabulary, text: str) 
                     _check_said(skill, said, line, names, with_own, others)
             except TemplateError as wrong:
                 raise SkillProblem("skill_words", skill.file, line, what=wrong.problem) from None
+
+
+def list_spoken(names: Vocabulary, place: str) -> list[str]:
+    """Return the English sentences that call skills, for ears of a closed grammar.
+
+    ``place`` stands where a name of a place is said. What takes other words is left out: ears that
+    know all their sentences can't hear words that nobody has told them.
+    """
+    return [said for skill in names.skills for said in _spoken(skill, place)]
+
+
+@lru_cache(maxsize=256)
+def _spoken(skill: Skill, place: str) -> tuple[str, ...]:
+    free, said = load_templates(), []
+    marks = {
+        each.name: place if each.kind is ParameterKind.PLACE else chr(_MARK + at)
+        for at, each in enumerate(skill.parameters)
+    }
+    for sentence in skill.en:
+        with contextlib.suppress(TemplateError):
+            named = {**free.words["en"], **marks}
+            said += _ways(parse_expression(sentence, named, frozenset(free.free), {}))
+    return tuple(" ".join(way) for way in said if set(way) & set(marks.values()) <= {place})
 
 
 def _draw(skill: Skill, sentence: str, tongue: str, names: Vocabulary) -> list[str]:

@@ -12,6 +12,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 MAX_NAMES = 300
+MAX_SENTENCES = 200
+PLACE = "_"
+"""Stands in a sentence of the owner's where a name of a place is said."""
 _SPOKEN = re.compile(r"[a-z']+(?: [a-z']+)*")
 
 
@@ -93,7 +96,9 @@ class SpokenLanguage:
     names: tuple[str, ...]
     """Names that can be said."""
     left_out: tuple[str, ...]
-    """Names that can't be said: a word without a pronunciation, digits, or too many names."""
+    """Names and sentences that can't be said: a word without a pronunciation, digits, too many."""
+    sentences: tuple[str, ...] = ()
+    """The owner's own orders that can be said."""
 
     def is_order(self, transcript: str) -> bool:
         """Tell whether a transcript is an order from its first word to its last."""
@@ -115,24 +120,47 @@ def is_called_stop(transcript: str) -> bool:
     return transcript in _CALLED_STOPS
 
 
-def language_of(names: Sequence[str], pronounced: Callable[[str], bool]) -> SpokenLanguage:
+def language_of(
+    names: Sequence[str], pronounced: Callable[[str], bool], sentences: Sequence[str] = ()
+) -> SpokenLanguage:
     """Return the language of orders about places with these names.
 
-    ``pronounced`` tells whether the decoder knows how a word sounds.
+    Args:
+        names: of the places.
+        pronounced: tells whether the decoder knows how a word sounds.
+        sentences: orders of the owner's own, ``PLACE`` where a name of a place stands.
     """
-    unique = list(dict.fromkeys(" ".join(name.lower().replace("-", " ").split()) for name in names))
-    sayable = [name for name in unique if _SPOKEN.fullmatch(name) and _can_say(name, pronounced)]
-    kept = sayable[:MAX_NAMES]
-    left_out = tuple(name for name in unique if name not in set(kept))
-    orders = _orders(any_of(*kept) if kept else None)
-    decoys = _decoys(any_of(*kept) if kept else None)
+    kept, left_out = _choose(names, MAX_NAMES, lambda name: _can_say(name, pronounced))
+    own, unsaid = _choose(
+        sentences,
+        MAX_SENTENCES,
+        lambda said: _can_say(said.replace(PLACE, "place"), pronounced),
+    )
+    place = any_of(*kept) if kept else None
+    owners = [_sentence(each, place) for each in own if place is not None or PLACE not in each]
+    orders = one_of(_orders(place), *owners) if owners else _orders(place)
+    decoys = _decoys(place)
     return SpokenLanguage(
-        _file(one_of(orders, decoys)), re.compile(orders.pattern), tuple(kept), left_out
+        _file(one_of(orders, decoys)), re.compile(orders.pattern), kept, left_out + unsaid, own
     )
 
 
-def _can_say(name: str, pronounced: Callable[[str], bool]) -> bool:
-    return all(pronounced(word) for word in name.split())
+def _choose(
+    texts: Sequence[str], most: int, can_say: Callable[[str], bool]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the texts that can be said, and the others."""
+    unique = list(dict.fromkeys(" ".join(text.lower().replace("-", " ").split()) for text in texts))
+    kept = tuple(text for text in unique if can_say(text))[:most]
+    return kept, tuple(text for text in unique if text not in set(kept))
+
+
+def _can_say(text: str, pronounced: Callable[[str], bool]) -> bool:
+    return _SPOKEN.fullmatch(text) is not None and all(map(pronounced, text.split()))
+
+
+def _sentence(text: str, place: GrammarPart | None) -> GrammarPart:
+    spot = None if place is None else after(maybe(words("the")), place)
+    return after(*(words(word) if word != PLACE or not spot else spot for word in text.split()))
 
 
 def _orders(place: GrammarPart | None) -> GrammarPart:

@@ -47,10 +47,10 @@ class VoiceWorker:
             command: another program than ours.
             model: ``sherpa``, a model's files, and ``threads``; None for the grammar.
         """
-        self._names = tuple(names)
+        self._heard: dict[str, tuple[str, ...]] = {"names": tuple(names), "sentences": ()}
         self._model = dict(model or {})
-        self._told: tuple[str, ...] = ()
-        """The names that the process of now was started with."""
+        self._told: dict[str, tuple[str, ...]] = {}
+        """What the process of now was started with."""
         self._command = command or worker_command("planner.voice.process_main")
         self._process: Process | None = None
         self._turn = asyncio.Lock()
@@ -72,11 +72,17 @@ class VoiceWorker:
         """Start the process beside everything else, so that the first order need not wait."""
         self._warming = asyncio.create_task(self._warm(), name="voice worker")
 
-    def know(self, names: Sequence[str]) -> None:
-        """Hear other names from now on: a process that knows them is started beside all else."""
-        if tuple(names) == self._names:
+    def know(self, names: Sequence[str], sentences: Sequence[str] = ()) -> None:
+        """Hear other names and orders from now on, by a process that is started beside all else.
+
+        Args:
+            names: of places.
+            sentences: the owner's own orders, as ``grammar.language_of`` takes them.
+        """
+        heard = {"names": tuple(names), "sentences": tuple(sentences)}
+        if heard == self._heard:
             return
-        self._names = tuple(names)
+        self._heard = heard
         work = self._warm_after(self._warming)
         self._warming = asyncio.create_task(work, name="voice worker")
 
@@ -188,14 +194,14 @@ class VoiceWorker:
 
     async def _start(self) -> Process:
         alive = self._process is not None and self._process.returncode is None
-        if self._process is not None and alive and self._told == self._names:
+        if self._process is not None and alive and self._told == self._heard:
             return self._process
         await self._bury()
         try:
             self._process = process = await spawn(self._command)
-            self._told = self._names
+            self._told = self._heard
             async with asyncio.timeout(READY_S):
-                greeting, _ = await exchange(process, pack({"names": self._told, **self._model}))
+                greeting, _ = await exchange(process, pack({**self._told, **self._model}))
         except STREAM_ERRORS as error:
             await self._bury()
             text = f"it did not start: {str(error) or type(error).__name__}"

@@ -59,7 +59,7 @@ def _load(told: dict[str, Any]) -> tuple[VoiceEngine, tuple[str, ...]]:
         return Sherpa(told["sherpa"], int(told["threads"])), ()
     from planner.voice.sphinx import Sphinx
 
-    sphinx = Sphinx([str(name) for name in told["names"]])
+    sphinx = Sphinx(*([str(each) for each in told[key]] for key in ("names", "sentences")))
     return sphinx, sphinx.language.left_out
 
 

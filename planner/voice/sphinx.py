@@ -25,6 +25,7 @@ from planner.voice.grammar import (
     ANSWERS,
     CALLED_STOPS,
     OTHER_STOPS,
+    PLACE,
     STOPS,
     SpokenLanguage,
     is_answer,
@@ -57,15 +58,16 @@ _NEVER = -1e9
 class Sphinx:
     """Decode by one site's grammar."""
 
-    def __init__(self, names: Sequence[str]) -> None:
-        """Load the model that pocketsphinx brings, about 0.2 s.
+    def __init__(self, names: Sequence[str], sentences: Sequence[str] = ()) -> None:
+        """Load the model that pocketsphinx brings, about 0.2 s; see ``language_of``.
 
         Raises:
             OSError: it brought none.
         """
         known = Dictionary(Path(pocketsphinx.get_model_path(_DICTIONARY)))
-        self.language: SpokenLanguage = language_of(names, known.__contains__)
-        named = {*chain.from_iterable(name.split() for name in self.language.names)}
+        self.language: SpokenLanguage = language_of(names, known.__contains__, sentences)
+        own = (*self.language.names, *self.language.sentences)
+        named = {*chain.from_iterable(text.split() for text in own)} - {PLACE}
         forms = self.language.jsgf + STOPS + OTHER_STOPS + ANSWERS
         spoken = {*COMMON, *_WORD.findall(forms)}
         with TemporaryDirectory() as folder:  # a decoder reads its words from files alone

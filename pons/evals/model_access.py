@@ -31,6 +31,7 @@ from planner.settings import (
     load_settings,
     place_of,
     same_place,
+    with_published_price,
 )
 from pons.terminal import pick
 from wire import ConfigError
@@ -97,7 +98,7 @@ def choose_model(
         raise ConfigError("model_not_set", detail)
     if url:  # what the owner's model costs says nothing about another
         budget = settings.budget.model_copy(update={"price": None})
-        settings = settings.model_copy(update={"budget": budget})
+        settings = with_published_price(settings.model_copy(update={"budget": budget}), model)
     if elsewhere:
         model = model.model_copy(update={"extra_body": {}})
         settings = settings.model_copy(update={"model": model})

@@ -11,6 +11,7 @@ import signal
 import sys
 from typing import TYPE_CHECKING
 
+from pons.extras import tell_missing
 from pons.terminal import pick
 from processes.log_lines import begin_log
 
@@ -19,10 +20,6 @@ if TYPE_CHECKING:
 
 EXIT_DONE, EXIT_UNUSABLE = 0, 2
 PORT = 8765
-NO_EXTRA = (
-    "no_foxglove: the library is not here; install it: pip install 'pons-robot[foxglove]'",
-    "no_foxglove：缺少 Foxglove 库；请安装：pip install 'pons-robot[foxglove]'",
-)
 TAKEN = (
     "foxglove_port: {} can't be served at: {}; choose another one with --port",
     "foxglove_port：无法使用端口 {}：{}；请用 --port 另选一个",
@@ -44,8 +41,7 @@ def run(settings: LaunchSettings, act: str | None, port: int) -> int:
     except ModuleNotFoundError as missing:
         if missing.name != "foxglove":
             raise
-        print(pick(*NO_EXTRA), file=sys.stderr)
-        return EXIT_UNUSABLE
+        return tell_missing("foxglove")
     robot = load_robot(settings.robot)
 
     async def serve() -> None:

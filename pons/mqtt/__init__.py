@@ -12,6 +12,7 @@ import sys
 import tomllib
 from typing import TYPE_CHECKING
 
+from pons.extras import tell_missing
 from pons.stop import leave
 from pons.terminal import pick
 from processes.log_lines import begin_log
@@ -23,10 +24,6 @@ if TYPE_CHECKING:
 
 EXIT_DONE, EXIT_UNUSABLE = 0, 2
 SETTINGS_FILE = "settings.toml"
-NO_EXTRA = (
-    "no_mqtt: the library is not here; install it: pip install 'pons-robot[mqtt]'",
-    "no_mqtt：缺少 MQTT 库；请安装：pip install 'pons-robot[mqtt]'",
-)
 NO_TABLE = (
     "mqtt_unset: {} has no [mqtt] table; docs/smart-home.md shows one",
     "mqtt_unset：{} 中没有 [mqtt] 表；见 docs/smart-home.md",
@@ -75,8 +72,7 @@ def run(settings: LaunchSettings) -> int:
     except ModuleNotFoundError as missing:
         if missing.name not in ("aiomqtt", "paho", "paho.mqtt"):
             raise
-        print(pick(*NO_EXTRA), file=sys.stderr)
-        return EXIT_UNUSABLE
+        return tell_missing("mqtt")
     except ConfigError as wrong:
         print(wrong, file=sys.stderr)
         return EXIT_UNUSABLE

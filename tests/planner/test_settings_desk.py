@@ -25,6 +25,13 @@ temperature = 0.2
 [orders]
 timezone = "Europe/Berlin"
 """
+CLOUD = """
+[model]
+url = "https://api.openai.com/v1"
+name = "NAME"
+key = "k"
+allow_offhost = true
+"""
 AT = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
 
 
@@ -209,6 +216,19 @@ def test_a_budget_is_in_force_at_once_and_a_model_at_the_next_start(tmp_path: Pa
     assert not field(view, "budget.day.calls")["is_pending"]
     assert field(view, "limits.max_speed_mps")["is_pending"]
     assert not field(save(desk, limits__max_speed_mps=None), "limits.max_speed_mps")["is_pending"]
+
+
+def test_the_model_that_is_asked_keeps_its_price_until_the_next_start(tmp_path: Path) -> None:
+    asked = CLOUD.replace("NAME", "gpt-4o-mini")
+    desk = desk_of(tmp_path, asked)
+    before = field(desk.view(), "budget.price.prompt_per_million")
+    assert (before["value"], before["source"], before["is_set"]) == (0.15, "default", False)
+    view = save(desk, model__name="gpt-4o")
+    after = field(view, "budget.price.prompt_per_million")
+    assert after["value"] == 2.5
+    assert after["is_pending"]
+    own = field(save(desk, budget__price__prompt_per_million=1.0), after["name"])
+    assert (own["value"], own["source"], own["is_pending"]) == (1.0, "file", False)
 
 
 def test_a_model_is_switched_off_with_its_table(tmp_path: Path) -> None:

@@ -28,7 +28,7 @@ from planner.skill_files.calls import SkillScene, unfold
 from planner.skill_files.folder import SkillFolder
 from planner.skill_files.keep import SkillKeeper
 from planner.skill_files.problems import SkillProblem
-from planner.skill_files.words import called_by
+from planner.skill_files.words import called_by, list_spoken
 from pons import Robot
 
 SITE = Site.load(Path("sites/home"))
@@ -65,6 +65,7 @@ def test_a_file_is_heard_once_it_is_saved_and_not_when_it_is_gone(
     path = _save(folder, "tour.toml", "show the house")
     asyncio.run(folder.look())
     assert called_by("show the house", places.vocabulary) == "tour"
+    assert list_spoken(places.vocabulary, "_") == ["show the house"]
     path.write_text(TEXT.format(words="show the flat to us", place="study"), "utf-8")
     asyncio.run(folder.look())
     assert called_by("show the house", places.vocabulary) is None
@@ -75,6 +76,19 @@ def test_a_file_is_heard_once_it_is_saved_and_not_when_it_is_gone(
     assert called_by("show the flat to us", places.vocabulary) is None
     path.unlink()
     assert not asyncio.run(folder.look()).problems
+    assert list_spoken(places.vocabulary, "_") == []
+
+
+def test_ears_of_a_closed_grammar_are_told_sentences_without_words_of_anybodys(
+    folder: SkillFolder, places: KnownPlaces
+) -> None:
+    folder.folder.mkdir()
+    for name in ("evening_round.toml", "plants.py"):
+        shutil.copy(Path("examples/skills") / name, folder.folder)
+    assert not asyncio.run(folder.look()).problems
+    spoken = list_spoken(places.vocabulary, "_")
+    assert {"the evening round", "do the evening round and end in _"} <= set(spoken)
+    assert not [said for said in spoken if "plant" in said], "it takes a time"
 
 
 def test_files_that_stay_as_they_are_are_not_read_again(folder: SkillFolder) -> None:

@@ -15,9 +15,11 @@ from hypothesis import strategies as st
 
 from planner.plan import Language
 from planner.settings import Settings, VoiceSettings
+from planner.site import KnownPlaces
 from planner.voice import Recognition, Sound, VoiceFailure, VoiceWorker
 from planner.voice.sherpa_model import find_model, open_model
 from planner.voice_factory import VoiceParts
+from tests.planner.api.fakes import two_room
 from tests.planner.voice.toy_transducer import FAINT, LOUD, MIDDLING, write_model
 from tests.processes.small_worker import story
 from wire import ConfigError
@@ -166,7 +168,7 @@ async def test_files_that_are_no_model_cost_the_process_and_never_the_planner(
 @story
 async def test_a_model_that_can_not_be_read_is_not_told_as_what_hears(tmp_path: Path) -> None:
     folder = write_model(tmp_path)
-    parts = VoiceParts(Settings(voice=VoiceSettings(folder=folder)), list)
+    parts = VoiceParts(Settings(voice=VoiceSettings(folder=folder)), KnownPlaces(two_room()))
     assert parts.abilities().recogniser == "sherpa"
     (folder / "encoder.onnx").write_text("hello", "utf-8")
     recogniser = parts.recogniser()

@@ -52,6 +52,19 @@ def test_clean_orders_are_heard(ears: Sphinx, text: str, voice: str) -> None:
 
 
 @needs_espeak
+def test_an_order_of_the_owners_is_heard_and_no_other_sentence_for_it(ears: Sphinx) -> None:
+    taught = type(ears)(NAMES, ("do the evening round", "do the evening round and end in _"))
+    for text in ("do the evening round", "do the evening round and end in the kitchen"):
+        heard = hear(taught, speak(text, "en-us"))
+        assert (heard.transcript, heard.understood) == (text, True)
+        assert hear(ears, speak(text, "en-us")).transcript != text
+    for text in ("what a nice evening it is", "we are going out this evening"):
+        assert not hear(taught, speak(text, "en-us")).understood, text
+    for text in ("go to the kitchen", "stop"):
+        assert hear(taught, speak(text, "en-us")).transcript == text
+
+
+@needs_espeak
 def test_one_sound_never_changes_the_next(ears: Sphinx) -> None:
     """A decoder adapts to what it hears; a doubtful clip is the first to come out otherwise."""
     clips = [speak(text, "en-us") for text in ("what a nice day it is", "go to the kitchen")]

@@ -8,7 +8,7 @@ import pytest
 
 from planner.language.grammar import plan
 from planner.plan import AnswerPlan, Bilingual, Entry, StepPlan, Vocabulary
-from planner.voice.grammar import MAX_NAMES, language_of
+from planner.voice.grammar import MAX_NAMES, PLACE, language_of
 
 NAMES = ("kitchen", "living room", "tv")
 LANGUAGE = language_of(NAMES, lambda _word: True)
@@ -69,6 +69,22 @@ def test_names_that_cant_be_said_are_listed() -> None:
     assert language.left_out == ("room 2", "küche", "xyzzyx", "客厅")
     assert language.is_order("go to the bed room")
     assert "xyzzyx" not in language.jsgf
+
+
+def test_the_owners_orders_are_heard_whole_with_the_names_of_places() -> None:
+    own = ("do the evening round", "end the round in _", "tend the xyzzyx", "brew 2 teas")
+    language = language_of(NAMES, lambda word: word != "xyzzyx", own)
+    assert language.left_out == ("tend the xyzzyx", "brew 2 teas")
+    for said in ("do the evening round", "end the round in the tv", "end the round in kitchen"):
+        assert language.is_order(said), said
+    for said in ("do the evening", "evening round", "end the round in", "end the round in _"):
+        assert not language.is_order(said), said
+    assert not language.is_order("do the evening round and then the kitchen")
+    nowhere = language_of((), lambda _word: True, own[:2])
+    assert nowhere.is_order("do the evening round")
+    assert not nowhere.is_order("end the round in _")
+    odd = language_of(("hall _", PLACE), lambda _word: True)
+    assert odd.names == ()
 
 
 def test_a_site_of_thousands_keeps_its_grammar_small() -> None:

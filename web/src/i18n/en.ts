@@ -728,6 +728,22 @@ export const en = {
   "theme.system": "as the system",
   "theme.light": "light",
   "theme.dark": "dark",
+  "skills.title": "Skills of your own",
+  "skills.how":
+    "Say one of its sentences: [this] may be left out, (this|that) is one of them, {…} is for you to fill. After an order say “remember that as the evening round”, and it is one.",
+  "skills.broken": "Files that are not skills",
+  "skills.at": "{file}, line {line}",
+  "skills.folder": "Their files: {folder}",
+  "skills.routine": "Steps in {file}",
+  "skills.function": "A function in {file}",
+  "skills.else": "else {value}",
+  "skills.kind.place": "a place",
+  "skills.kind.thing": "a thing",
+  "skills.kind.person": "a person",
+  "skills.kind.words": "any words",
+  "skills.kind.number": "a number",
+  "skills.kind.duration": "a time, such as 5 minutes",
+
   "people.title": "People",
   "people.about":
     "Each person, or each telephone, gets a link of its own, so that it can be told who stopped the robot, and taken back.",

@@ -6,6 +6,7 @@ import { fetchHistory, fetchOrders } from "../net/api";
 import { keepOrder, turnOrder } from "../state/acts";
 import { ordersVersion, pageFresh } from "../state/store";
 import { HomeWhenLow } from "./HomeWhenLow";
+import { SkillsPanel } from "./SkillsPanel";
 import { localTime, runWords, standsWords } from "./standing";
 import type { Firing, StandingOrder, StandingOrders } from "../wire/types";
 
@@ -23,6 +24,7 @@ export function OrdersTab() {
     <>
       <Give />
       <List />
+      <SkillsPanel />
     </>
   );
 }
