@@ -324,23 +324,12 @@ def _need_key(model: ModelSettings | None) -> None:
 
 
 _TABLES: dict[str, type[BaseModel]] = {
-    "": Settings,
-    "model": ModelSettings,
-    "mission": MissionSettings,
-    "memory": MemorySettings,
-    "vision": VisionSettings,
-    "voice": VoiceSettings,
-    "speech": SpeechSettings,
-    "orders": OrderSettings,
-    "orders.notify": NotifySettings,
-    "mqtt": MqttSettings,
-    "budget": BudgetSettings,
-    "budget.goal": GoalLimits,
-    "budget.day": DayLimits,
-    "budget.price": Price,
-    "limits": LimitSettings,
-    "tools": ToolServerSettings,
-}
+    "": Settings, "model": ModelSettings, "mission": MissionSettings, "memory": MemorySettings,
+    "vision": VisionSettings, "voice": VoiceSettings, "speech": SpeechSettings,
+    "orders": OrderSettings, "orders.notify": NotifySettings, "mqtt": MqttSettings,
+    "budget": BudgetSettings, "budget.goal": GoalLimits, "budget.day": DayLimits,
+    "budget.price": Price, "limits": LimitSettings, "tools": ToolServerSettings,
+}  # fmt: skip
 
 
 def _table(where: tuple[int | str, ...]) -> str:
