@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import gzip
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from threading import Event, Thread
 from typing import Any
 
 import pytest
+from opentelemetry.proto.collector.trace.v1.trace_service_pb2 import ExportTraceServiceRequest
 from opentelemetry.sdk.trace import ReadableSpan, TracerProvider
 from opentelemetry.sdk.trace.export import SimpleSpanProcessor
 from opentelemetry.sdk.trace.export.in_memory_span_exporter import InMemorySpanExporter
@@ -96,3 +100,50 @@ def test_what_is_kept_is_bounded() -> None:
 def test_without_a_collector_nothing_listens(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(VARIABLE, raising=False)
     assert traces_of("r1", lambda: 0) is None
+
+
+def test_a_collector_of_otlp_receives_a_goal_as_one_trace(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The SDK's own exporter sends protobuf over HTTP; what arrives is read by the protocol."""
+    received: list[ExportTraceServiceRequest] = []
+    arrived = Event()
+
+    class Collector(BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            body = self.rfile.read(int(self.headers["content-length"]))
+            if self.headers.get("content-encoding") == "gzip":
+                body = gzip.decompress(body)
+            assert self.path == "/v1/traces"
+            received.append(ExportTraceServiceRequest.FromString(body))
+            self.send_response(200)
+            self.send_header("content-type", "application/x-protobuf")
+            self.end_headers()
+            arrived.set()
+
+        def log_request(self, code: object = "-", size: object = "-") -> None:
+            """Say nothing."""
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Collector) as server:
+        serving = Thread(target=server.serve_forever)
+        serving.start()
+        try:
+            monkeypatch.setenv(VARIABLE, f"http://127.0.0.1:{server.server_port}")
+            told = Story()
+            traces = traces_of("r1", lambda: round(told.now_s * SECOND))
+            assert traces is not None
+            told.traces = traces
+            told.tell("planning")
+            traces.model_call("g1", 1.0, 10, 5)
+            told.tell("running", ("go_to", "running"), after_s=2.0)
+            told.tell("succeeded", ("go_to", "succeeded"), after_s=9.0, outcome={"code": "arrived"})
+            traces.close()
+            assert arrived.wait(60.0)
+        finally:
+            server.shutdown()
+            serving.join()
+    resources = [each for request in received for each in request.resource_spans]
+    spans = [span for each in resources for scope in each.scope_spans for span in scope.spans]
+    assert {span.name for span in spans} >= {"goal", "reading", "model call", "step go_to"}
+    assert len({span.trace_id for span in spans}) == 1
+    [root] = [span for span in spans if not span.parent_span_id]
+    assert root.name == "goal"
+    assert {span.parent_span_id for span in spans if span is not root} == {root.span_id}
