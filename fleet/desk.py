@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-NOTE_S = 2.0
+NOTE_S = 1.0
 """A stop waits no longer for its row."""
 THREADS = 64
 """For the database and for names of hosts: one that hangs must not keep a stop from its robot."""
