@@ -18,6 +18,7 @@ import threading
 import time
 from pathlib import Path
 
+from pons.launch_checks import CannotStart
 from pons.robot_processes import free_port
 from pons.supervisor import REFUSED_TO_START, Child
 from pons.terminal import command_path, pick
@@ -35,10 +36,6 @@ READY = "ready after "
 """What ``pons up`` prints once it can drive (pons/up.py)."""
 LATE = "not_ready: "
 """What it ends with on a machine that is too busy; it is started again."""
-
-
-class DemoFailed(Exception):
-    """It can't go on; the message says why."""
 
 
 class FleetDemo:
@@ -82,7 +79,7 @@ class FleetDemo:
         """Start all, tell the one URL, keep them running until asked to end.
 
         Raises:
-            DemoFailed: a part refuses to start, or is not ready in time.
+            CannotStart: a part refuses to start, or is not ready in time.
         """
         began_s, waiting = time.monotonic(), list(NAMES)
         self._children.append(self._robots[waiting[0]][0])
@@ -96,7 +93,7 @@ class FleetDemo:
                     else:
                         self._tell_ready(time.monotonic() - began_s)
                 if waiting and time.monotonic() - began_s > READY_LIMIT_S:
-                    raise DemoFailed(f"not_ready: {', '.join(waiting)}")
+                    raise CannotStart(f"not_ready: {', '.join(waiting)}")
                 self._ending.wait(POLL_S)
         finally:
             self._take_down()
@@ -105,7 +102,7 @@ class FleetDemo:
         for child in self._children:
             status = child.died(now_s)
             if status == REFUSED_TO_START and LATE not in child.last_words():
-                raise DemoFailed(f"{child.name} refused to start:\n{child.last_words()}")
+                raise CannotStart(f"{child.name} refused to start:\n{child.last_words()}")
             if status is not None:
                 say(f"{child.name} ended ({status}) and is started again; its log: {child.log}")
             if child.due(now_s):
@@ -160,7 +157,7 @@ def main() -> int:
         say(f"starting {', '.join(NAMES)} (simulated) and their fleet (state in {folder})")
         try:
             demo.run()
-        except DemoFailed as failed:
+        except CannotStart as failed:
             print(failed, file=sys.stderr)
             return EXIT_FAILED
     return EXIT_DONE
