@@ -31,10 +31,10 @@ class Pin:
     sha256: str = ""
     pem: str = ""
 
-    def context(self) -> ssl.SSLContext | bool:
-        """Return what judges a connection."""
+    def context(self) -> ssl.SSLContext:
+        """Return what judges a connection; without a pin no certificate passes."""
         if self.kind == "none":
-            return True
+            return ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         return _trusting(self.pem, is_leaf=self.kind == "leaf")
 
     @property

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-NOTE_S = 2.0
+NOTE_S = 1.0
 """A stop waits no longer for its row."""
 
 

@@ -135,6 +135,8 @@ class FleetStore(MissionStore):
         """
         with self.engine.begin() as connection:
             if connection.execute(sa.select(stops).where(stops.c.id == stop_id)).first():
+                here = (stops.c.id == stop_id) & stops.c.robot.in_(list(heard))
+                connection.execute(stops.update().where(here).values(confirmed_unix_s=self._wall()))
                 return []
             now = self._wall()
             newest = connection.execute(sa.select(sa.func.max(missions.c.seq))).scalar() or 0
@@ -144,13 +146,12 @@ class FleetStore(MissionStore):
                 connection.execute(stops.insert().values(**row, confirmed_unix_s=at))
             mine = robots.c.name.in_(list(names))
             connection.execute(robots.update().where(mine).values(stopped_seq=newest))
-            ended = []
-            for mission in select_missions(connection, missions.c.state == WAITING):
-                may = mission.candidates
-                if (may and set(may) <= set(names)) or (not may and forever):
-                    values = {"state": CANCELLED, "reason": "stopped_first"}
-                    self.change_where(connection, missions.c.id == mission.id, values)
-                    ended.append(mission.id)
+            wait = sa.select(missions.c.id, missions.c.names).where(missions.c.state == WAITING)
+            ended = [each for each, to in connection.execute(wait)
+                     if (set(json.loads(to)) <= set(names) if to != "[]" else forever)]  # fmt: skip
+            values = {"state": CANCELLED, "reason": "stopped_first"}
+            if ended:  # at once: thousands may wait, and a stop does not
+                self.change_where(connection, missions.c.id.in_(ended), values)
         self.forget_stops()
         return ended
 

@@ -22,7 +22,7 @@ from tests.fleet.conftest import RunningFleet
 
 pytestmark = [pytest.mark.home, pytest.mark.timeout(600)]
 
-UP_LIMIT_S = 180.0
+UP_LIMIT_S = 300.0
 
 
 def family(process: subprocess.Popen[str]) -> list[psutil.Process]:
