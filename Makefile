@@ -53,10 +53,13 @@ PAGE_BESIDE_HOME := tests/web/test_asked_first.py tests/web/test_missions.py tes
 PAGE_BESIDE_OWN := tests/web/test_hand.py
 STORIES = $(filter-out $(HOME_ROW) $(OWN_ROW) $(PAGE_ROW)/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
+# ROOM=planner/mission: what lies in that folder of tests; CHANGED=HEAD: what imports a file that differs from it.
+CHOSEN = $(addprefix tests/,$(ROOM)) $(if $(CHANGED),$(shell $(BIN)/python -m scripts.changed $(CHANGED)))
+TOLD = $(if $(strip $(CHOSEN)),$(filter $(CHOSEN) $(addsuffix /%,$(CHOSEN)),$(STORIES)),$(STORIES))
 
-test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 6 min on 2 cores)
-	@scripts/units.sh $(ARGS)
-	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
+test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories (about 6 min on 2 cores); ROOM=planner/mission or CHANGED=HEAD: those alone
+	@$(if $(CHANGED)$(ROOM),$(if $(strip $(CHOSEN)),,echo "no test imports what changed"; exit 0;)) scripts/units.sh $(CHOSEN) $(ARGS)
+	@$(if $(CHANGED)$(ROOM),$(if $(strip $(TOLD)),,exit 0;)) exec scripts/stories.sh -m "e2e and not home" $(TOLD) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
@@ -84,8 +87,9 @@ seeds: $(DEV) ## the laws of the step under 200 000 hostile scripts of 60 ticks;
 	@SEEDS=$${SEEDS:-200000} nice -n 10 $(BIN)/python -m pytest -v -n logical --timeout 600 \
 	  tests/bridge/core/laws/test_step_laws.py -k so_many $(ARGS)
 
-enumerate: $(DEV) ## every mode by all sets of up to three rows: 136 000 steps, minutes
-	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/laws/test_enumerated.py $(ARGS)
+enumerate: $(DEV) ## what `make test` takes samples of: every mode by all sets of up to three rows, every scripted goal by each manner of model; minutes
+	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/laws/test_enumerated.py \
+	  tests/planner/mission/test_told_truly.py $(ARGS)
 
 check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py
