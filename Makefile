@@ -47,28 +47,22 @@ fleet: $(EXTRAS) $(PAGE) ## start three simulated robots and their fleet; prints
 # Stories run real processes in real time; what needs minutes, a browser or a robot of its own is not
 # for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests
 # beside them starve them, nice or not: each robot is a session of its own to the scheduler.
-# `e2e` tells three rows of files at once, each about as long as the drive through the whole home.
-HOME_ROW := tests/e2e/test_home_tour.py tests/e2e/test_external_brain.py tests/e2e/test_bases.py \
-  tests/deploy/test_separate_starts.py
-OWN_ROW := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_wheel.py \
-  tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_stop_anywhere.py \
-  tests/e2e/test_smart_home.py tests/e2e/test_fleet.py
-PAGE_ROW := tests/web
-# These go with the two shorter rows: the page's would else be as long as both.
-PAGE_BESIDE_HOME := tests/web/test_asked_first.py tests/web/test_missions.py tests/web/test_people.py tests/web/test_points.py
-PAGE_BESIDE_OWN := tests/web/test_hand.py
-STORIES = $(filter-out $(HOME_ROW) $(OWN_ROW) $(PAGE_ROW)/%,\
+# What `make e2e` tells: robots of their own that take long to start or to drive, and the page in a browser.
+OWN_ROBOT := $(addprefix tests/e2e/,$(addsuffix .py,test_home_tour test_external_brain test_bases test_calibrate \
+  test_black_box test_fence_changed test_wheel test_model test_finds_at_home test_robot_changed test_stop_anywhere \
+  test_smart_home test_fleet)) tests/deploy/test_separate_starts.py
+STORIES = $(filter-out $(OWN_ROBOT) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
+# ROOM=planner/mission: what lies in that folder of tests; CHANGED=HEAD: what imports a file that differs from it.
+CHOSEN = $(addprefix tests/,$(ROOM)) $(if $(CHANGED),$(shell $(BIN)/python -m scripts.changed $(CHANGED)))
+TOLD = $(if $(strip $(CHOSEN)),$(filter $(CHOSEN) $(addsuffix /%,$(CHOSEN)),$(STORIES)),$(STORIES))
 
-test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories with real processes (about 6 min on 2 cores)
-	@scripts/units.sh $(ARGS)
-	@exec scripts/stories.sh -m "e2e and not home" $(STORIES) $(ARGS)
+test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories (about 6 min on 2 cores); ROOM=planner/mission or CHANGED=HEAD: those alone
+	@$(if $(CHANGED)$(ROOM),$(if $(strip $(CHOSEN)),,echo "no test imports what changed"; exit 0;)) scripts/units.sh $(CHOSEN) $(ARGS)
+	@$(if $(CHANGED)$(ROOM),$(if $(strip $(TOLD)),,exit 0;)) exec scripts/stories.sh -m "e2e and not home" $(TOLD) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
-	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" $(HOME_ROW) $(PAGE_BESIDE_HOME) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(OWN_ROW) $(PAGE_BESIDE_OWN) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(PAGE_ROW) $(addprefix --ignore=,$(PAGE_BESIDE_HOME) $(PAGE_BESIDE_OWN)) $(ARGS)
+	@exec scripts/stories.sh -m "e2e or home" $(OWN_ROBOT) tests/web $(ARGS)
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
 # that the others don't.
@@ -90,8 +84,9 @@ seeds: $(DEV) ## the laws of the step under 200 000 hostile scripts of 60 ticks;
 	@SEEDS=$${SEEDS:-200000} nice -n 10 $(BIN)/python -m pytest -v -n logical --timeout 600 \
 	  tests/bridge/core/laws/test_step_laws.py -k so_many $(ARGS)
 
-enumerate: $(DEV) ## every mode by all sets of up to three rows: 136 000 steps, minutes
-	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/laws/test_enumerated.py $(ARGS)
+enumerate: $(DEV) ## what `make test` takes samples of: every mode by all sets of up to three rows, every scripted goal by each manner of model; minutes
+	@ENUMERATE=all $(BIN)/python -m pytest -q -n logical tests/bridge/core/laws/test_enumerated.py \
+	  tests/planner/mission/test_told_truly.py $(ARGS)
 
 check: $(DEV) $(PAGE_DEV) ## run all that CI runs but e2e: format, lint, types, page, test; with seconds
 	@exec $(BIN)/python scripts/check.py

@@ -63,8 +63,13 @@ def pytest_collection() -> Iterator[None]:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put long stories first, each kind in its random order: begun last, one keeps all waiting."""
-    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+    """Put drives through the home first, then long stories, each kind in its random order.
+
+    Begun last, one keeps all others' processors waiting.
+    """
+    items.sort(
+        key=lambda item: tuple(item.get_closest_marker(each) is None for each in ("home", "long"))
+    )
 
 
 @pytest.fixture(scope="session", autouse=True)

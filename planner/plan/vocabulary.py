@@ -64,6 +64,15 @@ class Vocabulary(Frozen):
         """Return the entries by their id."""
         return {entry.id: entry for entry in self.entries}
 
+    @cached_property
+    def text(self) -> str:
+        """Return all that it holds as one text."""
+        return self.model_dump_json()
+
+    def __eq__(self, other: object) -> bool:
+        """Compare as one text: what is kept by one vocabulary is looked up by another equal one."""
+        return self is other or (isinstance(other, Vocabulary) and self.text == other.text)
+
     def __hash__(self) -> int:
         """Hash the ids alone: sentences are looked up by their vocabulary hundreds of times."""
         return hash(tuple(self.by_id))

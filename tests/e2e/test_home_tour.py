@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from math import hypot
 
 import pytest
 
 from pons.terminal_text import figures
-from tests.e2e.robot import THERE_M, Robot, resting_in
-from tests.e2e.system import ENDED, HOME_SITE
+from tests.e2e.robot import Robot, resting_in
+from tests.e2e.system import HOME_SITE
 
 pytestmark = [pytest.mark.home, pytest.mark.timeout(600)]
 
-ROOMS = ("hallway", "living_room", "kitchen", "study", "bathroom", "bedroom", "entrance")
+ROOMS = ("entrance", "bedroom", "bathroom", "hallway", "study", "living_room", "kitchen")
+"""By the shortest way from the dock through all of them: 31 m, of the 42 m of another order."""
 DRIVE_LIMIT_S = 120.0
 
 
@@ -38,27 +38,3 @@ def test_seven_rooms_in_both_languages(
         assert outcome["reached"]["room"] == room_id
         record_property(room_id, figures(outcome))
         print(f"{text}: {figures(outcome)}")
-
-
-def test_kitchen_then_bedroom_then_back(
-    house: Robot, record_property: Callable[[str, object], None]
-) -> None:
-    began, began_s = house.judge.truth.base_in_map, time.monotonic()
-    done = house.system.pons(
-        "say", "go to the kitchen, then the bedroom, then come back", timeout_s=3 * DRIVE_LIMIT_S
-    )
-    assert done.returncode == 0, (done.stdout, done.stderr)
-    goal = house.system.goals()[0]
-    assert goal["state"] in ENDED
-    kitchen, bedroom, back = goal["plan"]["steps"]
-    assert kitchen["reached"]["room"] == "kitchen"
-    assert bedroom["reached"]["room"] == "bedroom"
-    assert back["kind"] == "come_back"
-    pose = house.judge.truth.base_in_map
-    assert hypot(pose.x_m - began.x_m, pose.y_m - began.y_m) < THERE_M
-    house.judge.assert_no_contact()
-    driven_m = house.judge.path_m(began_s)
-    outcome = goal["outcome"]
-    assert abs(outcome["metres"] - driven_m) < 0.1 + 0.1 * driven_m
-    record_property("there and back", figures(outcome))
-    print(f"{goal['text']}: {figures(outcome)}")

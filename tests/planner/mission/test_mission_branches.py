@@ -287,7 +287,7 @@ TWICE_THEN_BACK = plan(
 )
 
 
-@pytest.mark.parametrize("after_s", range(1, 40, 2))
+@pytest.mark.parametrize("after_s", range(1, 40, 3))
 def test_a_planner_killed_in_a_round_or_a_branch_goes_on_there(after_s: int) -> None:
     world = Together()
     world.run(0.2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -137,6 +138,9 @@ def conditions() -> list[Goal]:
 
 
 GOALS = {"looks": looks(), "tours": tours(), "errands": errands(), "conditions": conditions()}
+MANNERS = ("honest", "denies", "describes", "down")
+EACH = 1 if os.environ.get("ENUMERATE") == "all" else len(MANNERS)
+"""A model of each manner is asked about one of so many goals; `make enumerate` asks all of all."""
 
 
 def told(mission: Mission) -> Bilingual:
@@ -161,12 +165,12 @@ def test_the_scripted_goals_are_many_and_half_of_them_disturbed() -> None:
     assert len(disturbed) * 2 >= len(goals)
 
 
-@pytest.mark.parametrize("manner", ["honest", "denies", "describes", "down"])
+@pytest.mark.parametrize("manner", MANNERS)
 @pytest.mark.parametrize("kind", GOALS)
 def test_no_scripted_goal_tells_anything_untrue(kind: str, manner: str) -> None:
     """Wrong: a yes told where nothing is, none told where something is, or a law broken."""
     wrong: list[str] = []
-    for goal in GOALS[kind]:
+    for goal in GOALS[kind][MANNERS.index(manner) % EACH :: EACH]:
         world, mission = played(goal, manner)
         said = told(mission)
         wrong += [f"{goal.name}: {each}" for each in untruths(mission, NAMES)]
