@@ -121,6 +121,12 @@ WORDS: dict[str, tuple[int, str, str]] = {
         "{name} has no card of what it can do (GET /v1/capabilities): update Pons there.",
         "{name} 没有能力卡（GET /v1/capabilities）：请在那里升级 Pons。",
     ),
+    "answer_unread": (
+        502,
+        "The robot's answer is not as this version reads it ({name}: {why}): update Pons there"
+        " or here.",
+        "机器人的应答不符合本版本的格式（{name}：{why}）：请升级那里或这里的 Pons。",
+    ),
     "store_unavailable": (
         503,
         "The fleet's database does not answer, or its disk is full; nothing was accepted.",

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from sqlalchemy.exc import SQLAlchemyError
 
+from fleet.card import Card, RobotTold, UsageTold, read_told
 from fleet.link import FleetLink, RobotAway, RobotBusy, RobotRefusal
 
 if TYPE_CHECKING:
@@ -160,7 +161,7 @@ class RobotWatch:
         if not self.link.is_proven:
             card = await self.link.prove()
             card["skills"] = (await self._ask_of_old("/v1/skills")).get("skills", [])
-            await asyncio.to_thread(self._store.update_card, self.name, card)
+            await asyncio.to_thread(self._store.update_card, self.name, read_told(Card, card))
             self._reconciled_s = float("-inf")
         if self._is_marked or self._reconciled_s == float("-inf"):
             await asyncio.to_thread(self._store.mark_heard, self.name)
@@ -206,10 +207,10 @@ class RobotWatch:
     async def _look(self) -> None:
         if time.monotonic() - self._looked_s > LOOK_S:
             told = await self.link.get("/v1/robot")
-            self.told = told if isinstance(told, dict) else {}
+            self.told = read_told(RobotTold, told)
             self._looked_s = time.monotonic()
         if time.monotonic() - self._metered_s > METER_S:
-            self.usage = await self._ask_of_old("/v1/usage")
+            self.usage = read_told(UsageTold, await self._ask_of_old("/v1/usage"))
             self._metered_s = time.monotonic()
 
     async def _ask_of_old(self, path: str) -> dict[str, Any]:
