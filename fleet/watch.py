@@ -193,6 +193,9 @@ class RobotWatch:
         while True:
             page = await self.link.get("/v1/goals", after=self._cursor, limit=PAGE)
             goals, cursor = page["goals"], int(page["next"])
+            if goals:  # where a robot stands is asked after its goal ended, before rooms are free
+                self._looked_s = float("-inf")
+                await self._look()
             if goals or cursor != self._cursor:
                 touched = await asyncio.to_thread(self._store.apply_goals, self.name, goals, cursor)
                 self._cursor = cursor
