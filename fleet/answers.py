@@ -98,6 +98,36 @@ class ToldRehearsal(Told):
     length_m: Annotated[float, Field(ge=0.0, le=1e6)] | None = None
 
 
+class ToldSkill(Told):
+    """Be a skill of the owner's, with the sentences that call it."""
+
+    name: Word
+    en: list[str] = []
+    zh: list[str] = []
+
+
+class ToldSkills(Told):
+    """Be all skills of a robot."""
+
+    skills: Annotated[list[ToldSkill], Field(max_length=500)] = []
+
+
+class ToldAmounts(Told):
+    """Be what a robot's model spent; nobody gives anything back to the house's budget."""
+
+    money: Annotated[float, Field(ge=0.0)] = 0.0
+    calls: Annotated[int, Field(ge=0)] = 0
+
+
+class ToldUsage(Told):
+    """Be a robot's meter."""
+
+    model: str | None = None
+    day: Word = ""
+    currency: Word | None = None
+    today: ToldAmounts | None = None
+
+
 _SHAPES: tuple[tuple[str, re.Pattern[str], type[Told]], ...] = (
     ("GET", re.compile(r"/v1/goals"), ToldChanges),
     ("POST", re.compile(r"/v1/goals"), ToldGoal),
@@ -105,6 +135,8 @@ _SHAPES: tuple[tuple[str, re.Pattern[str], type[Told]], ...] = (
     ("POST", re.compile(r"/v1/goals/[^/]+/[a-z]+"), ToldGoal),
     ("GET", re.compile(r"/v1/robot"), ToldRobot),
     ("POST", re.compile(r"/v1/rehearsals"), ToldRehearsal),
+    ("GET", re.compile(r"/v1/skills"), ToldSkills),
+    ("GET", re.compile(r"/v1/usage"), ToldUsage),
 )
 
 

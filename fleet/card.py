@@ -12,26 +12,32 @@ Name = Annotated[str, Field(max_length=200)]
 Words = Annotated[dict[str, Name], Field(max_length=20)]
 
 
-class _Pose(BaseModel):
+class _Shape(BaseModel):
     model_config = ConfigDict(allow_inf_nan=False)
+
+
+class _Pose(_Shape):
     x_m: float
     y_m: float
 
 
-class _Place(BaseModel):
+class _Place(_Shape):
     id: Name
     name: Words = {}
     aliases: Annotated[dict[str, list[Name]], Field(max_length=20)] = {}
     pose: _Pose | None = None
+    polygon: Annotated[list[tuple[float, float]], Field(max_length=1_000)] | None = None
 
 
-class _Card(BaseModel):
+class _Card(_Shape):
     robot_id: Annotated[str, Field(min_length=1, max_length=64)]
     release: Name | None = None
     site: Name | None = None
     map_id: Name | None = None
     camera: Name | None = None
     places: Annotated[list[_Place], Field(max_length=2_000)] = []
+    steps: Annotated[list[Name], Field(max_length=200)] | None = None
+    languages: Annotated[list[Name], Field(max_length=20)] | None = None
 
 
 def read_card(told: Any, name: str) -> dict[str, Any]:

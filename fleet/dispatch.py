@@ -85,7 +85,8 @@ class Dispatcher:
         for mission in waiting:
             may = await self._judge(mission, choice)
             if mission.is_urgent:
-                for robot in may[:1]:
+                turns = sorted(may, key=lambda name: (name not in choice.free, self._turn(name)))
+                for robot in turns[:1]:
                     await self._claim(mission, robot, frozenset())
                 continue
             if not may or len(batch) == len(choice.free) or self._looks >= MOST_LOOKS:
@@ -104,6 +105,8 @@ class Dispatcher:
         able = choice.abilities.able(mission, may)
         if not able:
             return await self._end(mission, REFUSED, "nobody_can")
+        if mission.is_urgent:  # it may mean a stop, so that no rule holds it back
+            return [name for name in able if self._watches[name].is_ready]
         if mission.way in ("any", "nearest"):
             homes = choice.abilities.homes(mission, able, self.rules)
             if len(homes) > 1:
@@ -116,7 +119,7 @@ class Dispatcher:
             if not able:
                 return self._wait(mission, "budget_spent")
         ready = [name for name in able if self._watches[name].is_ready]
-        free = ready if mission.is_urgent else [name for name in ready if name in choice.free]
+        free = [name for name in ready if name in choice.free]
         if not free and ready:
             others = [name for name in choice.free if name not in choice.lows]
             self._instead[mission.id] = choice.abilities.able(mission, others)
@@ -158,7 +161,7 @@ class Dispatcher:
         """Claim robots for the oldest orders so that the sum of their ways is least."""
         named = [json.loads(each.names) for each in waiting]
         load = {robot: sum(who == [robot] for who in named) for robot in choice.free}
-        turns = sorted(choice.free, key=lambda name: (self._rows[name].used_seq, name))
+        turns = sorted(choice.free, key=self._turn)
         robots = [name for name in turns if any(name in ways for _, ways in batch)]
 
         def cost(mission: MissionRow, ways: dict[str, Prospect], robot: str) -> float:
@@ -178,6 +181,9 @@ class Dispatcher:
             self._wait(batch[row][0], "robots_busy")
         if pairs and len(waiting) > len(pairs):
             self.work.set()  # who is behind them may go at once
+
+    def _turn(self, robot: str) -> tuple[int, str]:
+        return self._rows[robot].used_seq, robot
 
     async def _claim(self, mission: MissionRow, robot: str, wanted: frozenset[str]) -> bool:
         claimed = await asyncio.to_thread(self._store.claim, mission, robot, wanted)

@@ -57,8 +57,11 @@ def _of_rehearsal(told: Mapping[str, Any], card: Mapping[str, Any]) -> Prospect:
     does = {str(step["does"]) for step in steps}
     points = [(float(x), float(y)) for step in steps for x, y in step.get("points") or ()]
     named = {str(step["place"]) for step in steps if step.get("place")}
+    length_m = float(told["length_m"])
+    if not 0.0 <= length_m < math.inf:
+        raise ValueError("no length")
     return Prospect(
-        length_m=math.inf if "shut" in does else float(told["length_m"]),
+        length_m=math.inf if "shut" in does else length_m,
         moves=not does <= {"stands"},
         rooms=None if does & {"open", "shut"} else frozenset(_rooms_of(points, named, card)),
     )

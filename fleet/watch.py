@@ -194,6 +194,9 @@ class RobotWatch:
             before = self._cursor
             page = await self.link.get("/v1/goals", after=self._cursor, limit=PAGE)
             goals, cursor = page["goals"], int(page["next"])
+            if goals:  # where a robot stands is asked after its goal ended, before rooms are free
+                self._looked_s = float("-inf")
+                await self._look()
             if goals or cursor != self._cursor:
                 touched = await asyncio.to_thread(self._store.apply_goals, self.name, goals, cursor)
                 self._cursor = cursor
@@ -207,8 +210,7 @@ class RobotWatch:
 
     async def _look(self) -> None:
         if time.monotonic() - self._looked_s > LOOK_S:
-            told = await self.link.get("/v1/robot")
-            self.told = told if isinstance(told, dict) else {}
+            self.told = await self.link.get("/v1/robot")
             self._looked_s = time.monotonic()
         if time.monotonic() - self._metered_s > METER_S:
             self.usage = await self._ask_of_old("/v1/usage")
