@@ -58,7 +58,12 @@ RAW = (
     b'{"text":"go", "text":"stop"', b"\xff\xfe{", b"[" * 10_000,
     b'{"points":[{"x_m":NaN,"y_m":0}]}', b'{"text":' + b"1" * 5_000 + b"}",
 )  # fmt: skip
-BODIES = ({}, {"operator": PROOF}, {"kind": "arm", "operator": PROOF}, {"enabled": True})
+BODIES: tuple[dict[str, Any], ...] = (
+    {},
+    {"operator": PROOF},
+    {"kind": "arm", "operator": PROOF},
+    {"enabled": True},
+)
 
 
 def hostile_requests(chance: random.Random) -> list[tuple[str, str, bytes]]:
