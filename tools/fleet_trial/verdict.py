@@ -24,7 +24,7 @@ NUMBER = re.compile(r"say (\d+)$")
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class TrialVerdict:
     """Hold the numbers of the orders that went wrong, by how."""
 
     lost: tuple[int, ...]
@@ -44,7 +44,9 @@ class Verdict:
         return not any(getattr(self, field.name) for field in fields(self))
 
 
-def judge(accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database: str) -> Verdict:
+def judge(
+    accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database: str
+) -> TrialVerdict:
     """Return what became of the orders.
 
     Args:
@@ -72,7 +74,7 @@ def judge(accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database
         elif states != {"given_up"} and (states != told if told else "succeeded" in states):
             wrong.append(number)
     began = {number: sum(b for _, b in found.values()) for number, found in goals.items()}
-    return Verdict(
+    return TrialVerdict(
         tuple(lost),
         tuple(number for number, count in began.items() if count > 1),
         tuple(number for number in {*goals, *missions}

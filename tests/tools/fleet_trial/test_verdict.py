@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tools.fleet_trial.verdict import Verdict, judge
+from tools.fleet_trial.verdict import TrialVerdict, judge
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,7 +25,7 @@ def verdict_of(
     journals: Mapping[str, Sequence[Goal]],
     rows: Sequence[tuple[str, int, str]],
     accepted: Mapping[int, Sequence[str]],
-) -> Verdict:
+) -> TrialVerdict:
     """Write journals and rows down, and judge them."""
     for name, goals in journals.items():
         (folder / name).mkdir()
