@@ -17,13 +17,13 @@ Metres = Annotated[float, Field(ge=-1e6, le=1e6)]
 MOST_GOALS = 200
 
 
-class Told(BaseModel):
+class AnswerShape(BaseModel):
     """Leave what is not read as it is."""
 
     model_config = ConfigDict(allow_inf_nan=False, strict=True)
 
 
-class ToldStep(Told):
+class StepShape(AnswerShape):
     """Be one step of a plan."""
 
     kind: Word = ""
@@ -31,74 +31,74 @@ class ToldStep(Told):
     text: Annotated[str, Field(max_length=4_000)] | None = None
 
 
-class ToldPlan(Told):
+class PlanShape(AnswerShape):
     """Be a plan, or a question."""
 
-    steps: list[ToldStep] = []
+    steps: list[StepShape] = []
     options: list[Any] = []
     text: str | Words | None = None
 
 
-class ToldOutcome(Told):
+class OutcomeShape(AnswerShape):
     """Say how a goal ended."""
 
     message: Words | None = None
 
 
-class ToldGoal(Told):
+class GoalShape(AnswerShape):
     """Be one goal of the journal."""
 
     id: Annotated[str, Field(min_length=1, max_length=64)]
     state: Annotated[str, Field(pattern=r"^[a-z_]{1,32}$")]
     reason: Word | None = None
-    plan: ToldPlan | None = None
-    outcome: ToldOutcome | None = None
+    plan: PlanShape | None = None
+    outcome: OutcomeShape | None = None
 
 
-class ToldChanges(Told):
+class ChangesShape(AnswerShape):
     """Be one page of the journal's changes."""
 
-    goals: Annotated[list[ToldGoal], Field(max_length=MOST_GOALS)]
+    goals: Annotated[list[GoalShape], Field(max_length=MOST_GOALS)]
     next: Annotated[int, Field(ge=0, le=2**53)]
 
 
-class ToldPose(Told):
+class PoseShape(AnswerShape):
     """Be where a robot stands, in ``map``."""
 
     x_m: Metres
     y_m: Metres
 
 
-class ToldDrive(Told):
+class DriveShape(AnswerShape):
     """Be what carries the robot."""
 
     battery: float | None = None
 
 
-class ToldStatus(Told):
+class StatusShape(AnswerShape):
     """Be what the bridge says."""
 
     mode: Word | None = None
-    base_in_map: ToldPose | None = None
-    drive: ToldDrive | None = None
+    base_in_map: PoseShape | None = None
+    drive: DriveShape | None = None
 
 
-class ToldRobot(Told):
+class RobotShape(AnswerShape):
     """Be the state of a robot."""
 
-    status: ToldStatus | None = None
+    status: StatusShape | None = None
     room: Word | None = None
     map_id: Word | None = None
 
 
-class ToldRehearsal(Told):
+class RehearsalShape(AnswerShape):
     """Be the way of an order that is not given yet."""
 
     steps: list[dict[str, Any]]
     length_m: Annotated[float, Field(ge=0.0, le=1e6)] | None = None
 
 
-class ToldSkill(Told):
+class SkillShape(AnswerShape):
     """Be a skill of the owner's, with the sentences that call it."""
 
     name: Word
@@ -106,37 +106,37 @@ class ToldSkill(Told):
     zh: list[str] = []
 
 
-class ToldSkills(Told):
+class SkillsShape(AnswerShape):
     """Be all skills of a robot."""
 
-    skills: Annotated[list[ToldSkill], Field(max_length=500)] = []
+    skills: Annotated[list[SkillShape], Field(max_length=500)] = []
 
 
-class ToldAmounts(Told):
+class AmountsShape(AnswerShape):
     """Be what a robot's model spent; nobody gives anything back to the house's budget."""
 
     money: Annotated[float, Field(ge=0.0)] = 0.0
     calls: Annotated[int, Field(ge=0)] = 0
 
 
-class ToldUsage(Told):
+class UsageShape(AnswerShape):
     """Be a robot's meter."""
 
     model: str | None = None
     day: Word = ""
     currency: Word | None = None
-    today: ToldAmounts | None = None
+    today: AmountsShape | None = None
 
 
-_SHAPES: tuple[tuple[str, re.Pattern[str], type[Told]], ...] = (
-    ("GET", re.compile(r"/v1/goals"), ToldChanges),
-    ("POST", re.compile(r"/v1/goals"), ToldGoal),
-    ("GET", re.compile(r"/v1/goals/[^/]+"), ToldGoal),
-    ("POST", re.compile(r"/v1/goals/[^/]+/[a-z]+"), ToldGoal),
-    ("GET", re.compile(r"/v1/robot"), ToldRobot),
-    ("POST", re.compile(r"/v1/rehearsals"), ToldRehearsal),
-    ("GET", re.compile(r"/v1/skills"), ToldSkills),
-    ("GET", re.compile(r"/v1/usage"), ToldUsage),
+_SHAPES: tuple[tuple[str, re.Pattern[str], type[AnswerShape]], ...] = (
+    ("GET", re.compile(r"/v1/goals"), ChangesShape),
+    ("POST", re.compile(r"/v1/goals"), GoalShape),
+    ("GET", re.compile(r"/v1/goals/[^/]+"), GoalShape),
+    ("POST", re.compile(r"/v1/goals/[^/]+/[a-z]+"), GoalShape),
+    ("GET", re.compile(r"/v1/robot"), RobotShape),
+    ("POST", re.compile(r"/v1/rehearsals"), RehearsalShape),
+    ("GET", re.compile(r"/v1/skills"), SkillsShape),
+    ("GET", re.compile(r"/v1/usage"), UsageShape),
 )
 
 

@@ -58,7 +58,7 @@ RAW = (
     b'{"text":"go", "text":"stop"', b"\xff\xfe{", b"[" * 10_000,
     b'{"points":[{"x_m":NaN,"y_m":0}]}', b'{"text":' + b"1" * 5_000 + b"}",
 )  # fmt: skip
-BODIES: tuple[Any, ...] = (
+BODIES: tuple[dict[str, Any], ...] = (
     {},
     {"operator": PROOF},
     {"kind": "arm", "operator": PROOF},

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from tools.fleet_trial.house import House
 
-A_SECOND, IDLE_S = 5.0, 60.0
+A_SECOND, IDLE_S = 5.0, 30.0
 
 
 def tell(name: str, seconds: Sequence[float], goal_s: float) -> str:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import httpx
 
-from tools.fleet_trial.verdict import ENDED, Verdict, judge
+from tools.fleet_trial.verdict import ENDED, TrialVerdict, judge
 
 if TYPE_CHECKING:
     from tools.fleet_trial.house import House, LinkRobot
@@ -53,7 +53,7 @@ class Storm:
     _locks: dict[str, asyncio.Lock] = field(default_factory=dict)
     _hurt: dict[str, float] = field(default_factory=dict)
 
-    async def run(self) -> tuple[Verdict, Verdict, float]:
+    async def run(self) -> tuple[TrialVerdict, TrialVerdict, float]:
         """Return the verdict after 60 s of calm, the last one, and how long that took [s]."""
         self._recall()
         began_s = time.monotonic()
@@ -77,7 +77,7 @@ class Storm:
             telling.cancel()
             await asyncio.gather(people, telling, return_exceptions=True)
 
-    async def _judge(self) -> Verdict:
+    async def _judge(self) -> TrialVerdict:
         return await asyncio.to_thread(judge, self.accepted, self.house.homes, self.house.database)
 
     # Orders ---------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ import re
 import sqlite3
 from collections import defaultdict
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import sqlalchemy as sa
 
@@ -24,7 +24,7 @@ NUMBER = re.compile(r"say (\d+)$")
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class TrialVerdict:
     """Hold the numbers of the orders that went wrong, by how."""
 
     lost: tuple[int, ...]
@@ -44,7 +44,9 @@ class Verdict:
         return not any(getattr(self, field.name) for field in fields(self))
 
 
-def judge(accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database: str) -> Verdict:
+def judge(
+    accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database: str
+) -> TrialVerdict:
     """Return what became of the orders.
 
     Args:
@@ -63,7 +65,8 @@ def judge(accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database
     lost, open_, wrong = [], [], []
     for number, ids in accepted.items():
         states = {missions[number].get(each) for each in ids}
-        told = {state for state, _ in goals[number].values()}
+        taken = goals[number].values()
+        told = {state for state, has_begun in taken if has_begun} or {state for state, _ in taken}
         if None in states or not ids or (not told and not states <= ENDED):
             lost.append(number)
         elif not states <= ENDED:
@@ -71,7 +74,7 @@ def judge(accepted: Mapping[int, Sequence[str]], homes: Sequence[Path], database
         elif states != {"given_up"} and (states != told if told else "succeeded" in states):
             wrong.append(number)
     began = {number: sum(b for _, b in found.values()) for number, found in goals.items()}
-    return Verdict(
+    return TrialVerdict(
         tuple(lost),
         tuple(number for number, count in began.items() if count > 1),
         tuple(number for number in {*goals, *missions}
@@ -96,17 +99,28 @@ def written_at(homes: Sequence[Path]) -> dict[int, float]:
 
 
 def _read_journal(file: Path) -> list[tuple[int, str, str, bool]]:
-    """Return of each numbered goal its number, id, newest state, and whether it ever ran."""
+    """Return of each numbered goal its number, id, newest state, and whether it ever began.
+
+    One that a robot answered with 503, for a disk that was slow, is written later as one that ran,
+    and cancelled with all its steps skipped and no metre driven: it did not begin.
+    """
     with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as disk:
         ran = {row[0] for row in disk.execute("SELECT mission FROM transitions "
                                               "WHERE state='running'")}  # fmt: skip
         records = [json.loads(row[0]) for row in disk.execute("SELECT record FROM missions")]
     disk.close()
     return [
-        (int(found[1]), record["id"], record["state"], record["id"] in ran)
+        (int(found[1]), record["id"], record["state"], record["id"] in ran and not _is_idle(record))
         for record in records
         if (found := NUMBER.search(record["text"])) is not None
     ]
+
+
+def _is_idle(record: dict[str, Any]) -> bool:
+    """Return whether a goal ended without a step or a metre."""
+    steps = (record.get("plan") or {}).get("steps") or [{}]
+    idle = all(step.get("state") in ("skipped", "pending") for step in steps)
+    return record["state"] == "cancelled" and idle and record.get("metres") == 0.0
 
 
 def _read_rows(database: str) -> list[tuple[str, str, str]]:

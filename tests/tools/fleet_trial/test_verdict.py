@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from tools.fleet_trial.verdict import Verdict, judge
+from tools.fleet_trial.verdict import TrialVerdict, judge
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,7 +25,7 @@ def verdict_of(
     journals: Mapping[str, Sequence[Goal]],
     rows: Sequence[tuple[str, int, str]],
     accepted: Mapping[int, Sequence[str]],
-) -> Verdict:
+) -> TrialVerdict:
     """Write journals and rows down, and judge them."""
     for name, goals in journals.items():
         (folder / name).mkdir()
@@ -34,7 +34,10 @@ def verdict_of(
             disk.execute("CREATE TABLE transitions (mission TEXT, state TEXT, at_unix_s REAL)")
             for goal, number, states in goals:
                 text = f"go to the kitchen and say {number}"
-                record = {"id": goal, "text": text, "state": states[-1]}
+                record: dict[str, Any] = {"id": goal, "text": text, "state": states[-1]}
+                if states[-1] == "idle":
+                    step = {"state": "skipped"}
+                    record |= {"state": "cancelled", "metres": 0.0, "plan": {"steps": [step]}}
                 disk.execute("INSERT INTO missions VALUES (?, ?)", (goal, json.dumps(record)))
                 for state in states:
                     disk.execute("INSERT INTO transitions VALUES (?, ?, 0.0)", (goal, state))
@@ -54,6 +57,17 @@ def test_what_went_right_is_clean(tmp_path: Path) -> None:
         tmp_path, {"r1": [RIGHT], "r2": []}, [("m1", 100, "succeeded")], {100: ["m1"]}
     )
     assert verdict.is_clean
+
+
+def test_a_goal_that_a_slow_disk_refused_has_not_begun(tmp_path: Path) -> None:
+    verdict = verdict_of(
+        tmp_path,
+        {"r1": [RIGHT, ("g0", 100, ("planning", "running", "cancelled", "idle"))]},
+        [("m1", 100, "succeeded")],
+        {100: ["m1"]},
+    )
+    assert (verdict.begun_twice, verdict.told_wrong) == ((), ())
+    assert verdict.given_twice == (100,)  # and it is told all the same
 
 
 @pytest.mark.parametrize(
