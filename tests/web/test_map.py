@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, FloatRect, Page
+from playwright.sync_api import Browser, CDPSession, FloatRect, Page
 
 from planner.memory import MemoryStore, Recollection
 from planner.mission.place_survey import RobotSurvey
@@ -199,12 +199,10 @@ def test_a_place_is_dragged_or_moved_by_keys_and_stays_where_it_is_refused(
     assert plant(planner) != pytest.approx(FREE[1], abs=0.05)
 
 
-def touch(page: Page, kind: str, *points: tuple[float, float]) -> None:
+def touch(session: CDPSession, kind: str, *points: tuple[float, float]) -> None:
     """Put fingers on the screen, move or lift them, as a touch screen does."""
     fingers = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(points)]
-    session = page.context.new_cdp_session(page)
     session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": fingers})
-    session.detach()
 
 
 def width_px(page: Page) -> float:
@@ -219,19 +217,20 @@ def test_two_fingers_zoom_and_turn_the_map_and_are_no_tap(opened: Open) -> None:
     box = page.locator("#map").bounding_box()
     assert box is not None
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    screen = page.context.new_cdp_session(page)
     fitted, compass = width_px(page), page.locator("#compass svg")
-    touch(page, "touchStart", (x - 40, y), (x + 40, y))
+    touch(screen, "touchStart", (x - 40, y), (x + 40, y))
     for way in range(45, 81, 5):
-        touch(page, "touchMove", (x - way, y), (x + way, y))
-    touch(page, "touchEnd")
+        touch(screen, "touchMove", (x - way, y), (x + way, y))
+    touch(screen, "touchEnd")
     page.wait_for_timeout(FRAMES_MS)
     assert width_px(page) / fitted == pytest.approx(2.0, rel=0.1)
     assert compass.count() == 0, "two fingers that zoom turn nothing"
-    touch(page, "touchStart", (x - 60, y), (x + 60, y))
+    touch(screen, "touchStart", (x - 60, y), (x + 60, y))
     for step in range(1, 13):
         dx, dy = 60 * cos(step * pi / 24), 60 * sin(step * pi / 24)
-        touch(page, "touchMove", (x - dx, y - dy), (x + dx, y + dy))
-    touch(page, "touchEnd")
+        touch(screen, "touchMove", (x - dx, y - dy), (x + dx, y + dy))
+    touch(screen, "touchEnd")
     turned = float(compass.evaluate("e => parseFloat(e.style.rotate)"))
     assert pi / 4 < turned < pi / 2, "so far as the fingers turned, once they clearly did"
     assert page.locator(".point-menu").count() == 0

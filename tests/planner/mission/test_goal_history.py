@@ -69,7 +69,8 @@ def test_ten_thousand_missions_are_read_page_by_page_and_none_is_left_out(tmp_pa
     with engine.begin() as connection:
         connection.execute(sa.insert(goal_history.rows), more)
     engine.dispose()
-    before, ids = None, []
+    before: int | None = None
+    ids: list[str] = []
     while not ids or before is not None:
         page = found(history, HistoryQuery(before=before, limit=500))
         before, ids = page.next, [*ids, *(goal.id for goal in page.goals)]
