@@ -97,13 +97,13 @@ class AccessDoor:
             if is_chunked or not (length.isdecimal() and int(length) <= MAX_BODY_BYTES):
                 raise FleetError("body_too_large")
         except FleetError as refused:
-            await problem(refused)(scope, receive, _secured(send))
+            await problem(refused)(scope, receive, _add_security_headers(send))
             return
         scope["state"] = {**scope.get("state", {}), "role": role}
-        await self._app(scope, receive, _secured(send))
+        await self._app(scope, receive, _add_security_headers(send))
 
 
-def _secured(send: Send) -> Send:
+def _add_security_headers(send: Send) -> Send:
     """Return a way to send on which each answer gets the security headers."""
 
     async def sending(message: Message) -> None:

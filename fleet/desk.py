@@ -240,7 +240,7 @@ class Desk:
 
     async def pause(self, mission_id: str) -> MissionRow:
         """Let the robot keep a mission's place, standing; raises as ``resume``."""
-        return await self._act(await self._bound(mission_id), "pause", {})
+        return await self._act(await self._find_at_robot(mission_id), "pause", {})
 
     async def resume(self, mission_id: str) -> MissionRow:
         """Let a robot go on with a mission that it paused: after a stop, or a restart there.
@@ -249,9 +249,9 @@ class Desk:
             FleetError: ``unknown_mission``, ``not_at_robot``, ``robot_silent``, ``robot_refused``,
                 or ``resume_at_robot`` where a person's key is needed there.
         """
-        return await self._act(await self._bound(mission_id), "resume", {"source": SOURCE})
+        return await self._act(await self._find_at_robot(mission_id), "resume", {"source": SOURCE})
 
-    async def _bound(self, mission_id: str) -> MissionRow:
+    async def _find_at_robot(self, mission_id: str) -> MissionRow:
         mission = await asyncio.to_thread(self.store.mission, mission_id)
         if mission.is_over or mission.goal_id is None:
             raise FleetError("not_at_robot", name=mission_id)

@@ -42,51 +42,51 @@ Outline = Annotated[list[tuple[Metres, Metres]], Field(max_length=2_000)]
 Outlines = Annotated[list[Outline], Field(max_length=500)]
 
 
-class Told(BaseModel):
+class DrawnShape(BaseModel):
     """Take the fields that are drawn and no others."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
 
 
-class Origin(Told):
+class OriginShape(DrawnShape):
     """Hold the map's lower left corner [m]."""
 
     x_m: Metres
     y_m: Metres
 
 
-class Pose(Origin):
+class DrawnPose(OriginShape):
     """Hold where something is in the map."""
 
     yaw_rad: Annotated[float, Field(ge=-1_000.0, le=1_000.0)] = 0.0
 
 
-class SpeedZone(Told):
+class SpeedZoneShape(DrawnShape):
     """Hold where a robot drives slower."""
 
     polygon: Outline
     max_speed_mps: Annotated[float, Field(ge=0.0, le=100.0)]
 
 
-class Fence(Told):
+class FenceShape(DrawnShape):
     """Hold where a robot may be."""
 
     allowed: Outlines = []
     keep_outs: Outlines = []
-    speed_zones: Annotated[list[SpeedZone], Field(max_length=500)] = []
+    speed_zones: Annotated[list[SpeedZoneShape], Field(max_length=500)] = []
 
 
-class MapPicture(Told):
+class MapPicture(DrawnShape):
     """Hold a map as a robot's ``GET /v1/map`` tells it; cells are a byte each, in base64."""
 
     map_id: Annotated[str, Field(max_length=64)]
     width: Annotated[int, Field(ge=1, le=MAX_CELLS)]
     height: Annotated[int, Field(ge=1, le=MAX_CELLS)]
     resolution_m: Annotated[float, Field(ge=0.005, le=1.0)]
-    origin: Origin
+    origin: OriginShape
     cells: str
     growing: None = None
-    fence: Fence = Fence()
+    fence: FenceShape = FenceShape()
 
     @model_validator(mode="after")
     def _whole(self) -> MapPicture:
@@ -101,25 +101,25 @@ class MapPicture(Told):
         return self
 
 
-class Name(Told):
+class NameShape(DrawnShape):
     """Hold a place's name in both languages."""
 
     en: Annotated[str, Field(max_length=120)] = ""
     zh: Annotated[str, Field(max_length=120)] = ""
 
 
-class Place(Told):
+class PlaceShape(DrawnShape):
     """Hold a room or a place of a robot's card."""
 
     id: Annotated[str, Field(max_length=120)]
     kind: Literal["room", "place"] = "place"
-    name: Name
+    name: NameShape
     polygon: Outline | None = None
-    pose: Pose
+    pose: DrawnPose
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
+class MapShown:
     """Hold which map a robot shows, or why none."""
 
     map_id: str
@@ -133,7 +133,7 @@ class MapShelf:
 
     def __init__(self) -> None:
         self._squeezed: dict[str, bytes] = {}
-        self._shown: dict[str, Shown] = {}
+        self._shown: dict[str, MapShown] = {}
         self._asking: dict[str, asyncio.Task[None]] = {}
         self._turn = asyncio.Semaphore(AT_ONCE)
 
@@ -141,7 +141,7 @@ class MapShelf:
         """Return a map by the name of its content, as squeezed JSON."""
         return self._squeezed.get(digest)
 
-    def look(self, watch: RobotWatch, card: Mapping[str, Any]) -> Shown | None:
+    def look(self, watch: RobotWatch, card: Mapping[str, Any]) -> MapShown | None:
         """Return what is known of a robot's map now; begin to ask where that is old."""
         known, map_id = self._shown.get(watch.name), str(card.get("map_id"))[:64]
         is_due = known is None or known.map_id != map_id or time.monotonic() > known.again_s
@@ -169,16 +169,16 @@ class MapShelf:
                 if digest not in self._squeezed and not held + len(squeezed) <= MAX_HELD_BYTES:
                     raise ValueError("the maps together are too large")
             except RobotRefusal as refused:
-                shown = Shown(map_id, None, refused.code, time.monotonic() + AGAIN_S)
+                shown = MapShown(map_id, None, refused.code, time.monotonic() + AGAIN_S)
             except (RobotAway, RobotBusy) as away:
                 log.info("map of %s: %s", watch.name, away)
-                shown = Shown(map_id, kept, "map_refused", time.monotonic() + AGAIN_S)
+                shown = MapShown(map_id, kept, "map_refused", time.monotonic() + AGAIN_S)
             except (ValueError, RecursionError) as wrong:
                 log.warning("map_refused: %s: %s", watch.name, str(wrong)[:300])
-                shown = Shown(map_id, None, "map_refused", time.monotonic() + REFRESH_S)
+                shown = MapShown(map_id, None, "map_refused", time.monotonic() + REFRESH_S)
             else:
                 self._squeezed[digest] = squeezed
-                shown = Shown(map_id, digest, None, time.monotonic() + REFRESH_S)
+                shown = MapShown(map_id, digest, None, time.monotonic() + REFRESH_S)
         self._shown[watch.name] = shown
 
 
@@ -197,11 +197,11 @@ def read_map(told: object, places: object) -> tuple[str, bytes]:
     return hashlib.sha256(raw.encode()).hexdigest()[:32], squeezed
 
 
-def _place(told: object) -> Place | None:
+def _place(told: object) -> PlaceShape | None:
     try:
-        place = Place.model_validate(told)
+        place = PlaceShape.model_validate(told)
     except ValidationError:
         return None
     name = place.name
-    both = Name(en=name.en or name.zh or place.id, zh=name.zh or name.en or place.id)
+    both = NameShape(en=name.en or name.zh or place.id, zh=name.zh or name.en or place.id)
     return place.model_copy(update={"name": both})

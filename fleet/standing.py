@@ -66,7 +66,7 @@ class StandingRow:
         return runs_of(self.cron, self.zone, after_unix_s)
 
 
-class OrderDesk(Protocol):
+class OrderTaker(Protocol):
     """Be where orders are given."""
 
     store: FleetStore
@@ -131,7 +131,7 @@ def show_standing(order: StandingRow, rules: HouseRules) -> dict[str, Any]:
     }  # fmt: skip
 
 
-async def keep_time(desk: OrderDesk) -> None:
+async def keep_time(desk: OrderTaker) -> None:
     """Give each order at its times, for ever."""
     while True:
         await asyncio.sleep(LOOK_S)
@@ -143,7 +143,7 @@ async def keep_time(desk: OrderDesk) -> None:
             log.warning("store_unavailable: %s", error)
 
 
-async def give_due(desk: OrderDesk, order: StandingRow, now_s: float, late_s: float) -> None:
+async def give_due(desk: OrderTaker, order: StandingRow, now_s: float, late_s: float) -> None:
     """Give an order if it is due, or tell why not. A run over ``late_s`` ago is not made up."""
     due_s = next(order.runs(order.handled_unix_s), None)
     if due_s is None or due_s > now_s:

@@ -14,7 +14,7 @@ export default defineConfig(({ mode }) => ({
     assetsInlineLimit: 4096,
     chunkSizeWarningLimit: 600,
     emptyOutDir: mode !== "fleet",
-    rollupOptions: { input: mode === "fleet" ? "fleet.html" : "index.html" },
+    rolldownOptions: { input: mode === "fleet" ? "fleet.html" : "index.html" },
   },
   server: { proxy: { "/v1": { target: planner, ws: true } } },
 }));

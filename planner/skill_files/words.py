@@ -77,11 +77,11 @@ def list_spoken(names: Vocabulary, place: str) -> list[str]:
     ``place`` stands where a name of a place is said. What takes other words is left out: ears that
     know all their sentences can't hear words that nobody has told them.
     """
-    return [said for skill in names.skills for said in _spoken(skill, place)]
+    return [said for skill in names.skills for said in _list_spoken(skill, place)]
 
 
 @lru_cache(maxsize=256)
-def _spoken(skill: Skill, place: str) -> tuple[str, ...]:
+def _list_spoken(skill: Skill, place: str) -> tuple[str, ...]:
     free, said = load_templates(), []
     marks = {
         each.name: place if each.kind is ParameterKind.PLACE else chr(_MARK + at)

@@ -28,8 +28,8 @@ from planner.mission.skills.skill_state import (
     LookState,
     PointingStage,
     SkillState,
-    SkillStateBase,
 )
+from planner.mission.skills.state_base import SkillStateBase
 from planner.mission.state import Mission
 from planner.plan import GoalState, StepState
 from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, standing_still

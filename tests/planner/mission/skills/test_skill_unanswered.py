@@ -18,8 +18,8 @@ from planner.mission.skills.skill_state import (
     LookStage,
     LookState,
     PointingStage,
-    SkillStateBase,
 )
+from planner.mission.skills.state_base import SkillStateBase
 from planner.perception import Sight
 from planner.plan import Bilingual, Code, say_same
 from tests.planner.mission.skills.scenes import scene
