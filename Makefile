@@ -50,7 +50,7 @@ fleet: $(EXTRAS) $(PAGE) ## start three simulated robots and their fleet; prints
 # What `make e2e` tells: robots of their own that take long to start or to drive, and the page in a browser.
 OWN_ROBOT := $(addprefix tests/e2e/,$(addsuffix .py,test_home_tour test_external_brain test_bases test_calibrate \
   test_black_box test_fence_changed test_wheel test_model test_finds_at_home test_robot_changed test_stop_anywhere \
-  test_smart_home test_fleet)) tests/deploy/test_separate_starts.py
+  test_smart_home test_fleet test_tool_servers)) tests/deploy/test_separate_starts.py
 STORIES = $(filter-out $(OWN_ROBOT) tests/web/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 # ROOM=planner/mission: what lies in that folder of tests; CHANGED=HEAD: what imports a file that differs from it.

@@ -131,7 +131,7 @@ def view_robot(
     trouble = watch.trouble if watch.trouble in WORDS else None
     return {
         "name": row.name, "url": row.url,
-        "state": "ready" if watch.is_ready else watch.trouble or "connecting",
+        "state": watch.state,
         "is_silent": watch.is_silent, "heard_unix_s": watch.heard_unix_s,
         "message": tell(trouble, {"name": row.name, "found": "?"}) if trouble else None,
         "mission": mission_id, "unstopped": is_unstopped,

@@ -74,6 +74,12 @@ class RobotWatch:
         since_s = self._began_s if self._heard_s is None else self._heard_s
         return time.monotonic() - since_s > SILENT_S
 
+    @property
+    def state(self) -> str:
+        """Return ``ready``, its trouble, or ``connecting``; a stop on its way is no trouble."""
+        answers = self.is_ready or (self.trouble is None and self._heard_s is not None)
+        return "ready" if answers else self.trouble or "connecting"
+
     def nudge(self) -> None:
         """Let the next round begin at once."""
         self._nudged.set()
@@ -99,6 +105,11 @@ class RobotWatch:
             except SQLAlchemyError as error:
                 log.warning("store_unavailable: %s", error)
                 pause_s = 1.0
+            except (KeyError, TypeError, ValueError) as odd:
+                # What no shape of fleet/answers.py foresaw: a dead watch would repeat no stop.
+                log.exception("%s answers what is not read", self.name)
+                await self._note_away(f"an answer that is not read: {odd!r}")
+                pause_s = min(pause_s * 1.5, 5.0)
             with suppress(TimeoutError):
                 spread_s = pause_s * random.uniform(0.8, 1.2)  # many do not come back at once
                 await asyncio.wait_for(self._nudged.wait(), spread_s)
@@ -254,7 +265,7 @@ def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> di
     status = status if isinstance(status, dict) else {}
     return {
         "name": robot.name, "robot_id": robot.robot_id, "url": robot.url,
-        "state": "ready" if watch.is_ready else watch.trouble or "connecting",
+        "state": watch.state,
         "heard_unix_s": watch.heard_unix_s, "mission": mission_id,
         "mode": status.get("mode"), "base_in_map": status.get("base_in_map"),
         "room": watch.told.get("room"), "map_id": card.get("map_id"), "site": card.get("site"),

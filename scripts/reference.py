@@ -14,7 +14,7 @@ import json
 import re
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic_core import PydanticUndefined
@@ -116,7 +116,8 @@ def tables(model: type[BaseModel], name: str = "") -> Iterator[tuple[str, type[B
     for key, field in model.model_fields.items():
         inner = record_of(field.annotation)
         if inner is not None:
-            yield from tables(inner, f"{name}.{key}".strip("."))
+            many = ".NAME" if get_origin(field.annotation) is dict else ""
+            yield from tables(inner, f"{name}.{key}{many}".strip("."))
 
 
 def record_of(kind: Any) -> type[BaseModel] | None:

@@ -44,7 +44,7 @@ OPERATORS_READING = re.compile(r"/v1/goals/[^/]*/replies/?|/v1/hand/?")
 may one open the socket of a hand on the stick."""
 _GOALS = r"/v1/goals|/v1/goals/[^/]+/(?:answer|cancel)|/v1/rehearsals"
 _READING = r"/healthz|/readyz|/v1/(?:robot|map|places|camera\.jpg|objects|localization|events)"
-_READING += r"|/v1/(?:goals|history|memory|usage|orders|people|capabilities|skills|tools)"
+_READING += r"|/v1/(?:goals|history|memory|usage|orders|people|capabilities|skills)"
 _READING += r"|/v1/(?:goals|history)/[^/]+"
 MAY: dict[Role, tuple[tuple[frozenset[str], re.Pattern[str]], ...]] = {
     Role.AGENT: (

@@ -56,6 +56,8 @@ class ToolServerList(BaseModel):
 
     asked_by: str | None
     """The model that may ask them; none: the built-in rules know no tools."""
+    message: Bilingual | None
+    """The cure where nobody may ask them."""
     servers: tuple[ToolServerView, ...]
 
 
@@ -72,8 +74,10 @@ def routes(services: Services) -> APIRouter:
         except StateUnavailable:
             counts = None
         name = services.brain.tag.name
+        is_model = name != "offline"
         return ToolServerList(
-            asked_by=None if name == "offline" else name,
+            asked_by=name if is_model else None,
+            message=None if is_model else say("tool_problem.no_model"),
             servers=tuple(_show(state, counts) for state in services.tools.states),
         )
 

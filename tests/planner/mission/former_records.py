@@ -7,7 +7,7 @@ from __future__ import annotations
 YOUNGER = (
     *("recoveries", "depth", "role", "times", "round", "began_unix_s", "holds", "earlier"),
     *("word", "time", "after", "before", "span", "deeds", "bill"),
-    *("look", "stops", "side", "map_id", "x_m", "y_m", "yaw_rad"),
+    *("look", "stops", "side", "map_id", "x_m", "y_m", "yaw_rad", "tool", "arguments"),
 )
 """Fields of a step that these programs did not know."""
 

@@ -42,7 +42,8 @@ def test_an_answer_comes_with_its_kind_and_the_key_goes_in_one_header() -> None:
             200, headers={"content-type": "Audio/WAV; x=1"}, stream=httpx.ByteStream(b"RIFF")
         )
 
-    assert call(handler) == CallAnswer("audio/wav", b"RIFF")
+    answer = call(handler)
+    assert (answer.kind, answer.body) == ("audio/wav", b"RIFF")
     assert str(asked[0].url) == "http://127.0.0.1:9/v1/audio/speech"
     assert asked[0].headers["authorization"] == f"Bearer {KEY}"
     assert KEY not in str(asked[0].url)

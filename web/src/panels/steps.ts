@@ -28,6 +28,9 @@ function what(step: Step): string {
       ? t("step.round", { n: `${step.round}`, of: `${step.times ?? 1}` })
       : t("step.times", { of: `${step.times ?? 1}` });
   }
+  if (step.kind === "use_tool") {
+    return [step.tool ?? "", ...(step.arguments ?? []).filter((given) => given)].join(" · ");
+  }
   if (step.kind === "wait_for") return step.object ?? step.word ?? step.time ?? "";
   if (step.kind === "stand_at") return standing(step);
   if (typeof step.x_m === "number") return `(${fixed(step.x_m, 2)}, ${fixed(step.y_m ?? 0, 2)})`;

@@ -179,6 +179,8 @@ export type Step = {
   readonly x_m?: number | null; // a point of the map that a person gave [m]
   readonly y_m?: number | null;
   readonly side?: string | null; // of a place or thing, at which to stand
+  readonly tool?: string | null; // of a server of the owner's
+  readonly arguments?: readonly string[];
   readonly word: string | null;
   readonly time: string | null;
   readonly after: string | null;

@@ -30,6 +30,7 @@ from planner.plan import (
     NEEDS_CAMERA,
     NEEDS_GROWING_MAP,
     RUNNABLE,
+    TOOL_CALLS,
     Code,
     Means,
     StepState,
@@ -45,12 +46,16 @@ BACK = Pose2(1.0, 1.0, 0.5)
 
 def test_what_may_be_planned_has_a_skill_and_what_it_takes_is_known() -> None:
     whole = Means(camera=True, detector=True, growing_map=True)
-    assert set(SKILLS) | CONTROL == EVERY_KIND | GIVEN | CONDITIONS
-    assert whole.runnable == EVERY_KIND | GIVEN
-    assert Means().runnable - GIVEN == RUNNABLE == EVERY_KIND - NEEDS_CAMERA - NEEDS_GROWING_MAP
+    assert set(SKILLS) | CONTROL == EVERY_KIND | GIVEN | CONDITIONS | TOOL_CALLS
+    assert whole.runnable == EVERY_KIND | GIVEN | TOOL_CALLS
+    assert (
+        Means().runnable - GIVEN - TOOL_CALLS
+        == RUNNABLE
+        == EVERY_KIND - NEEDS_CAMERA - NEEDS_GROWING_MAP
+    )
     assert Means(growing_map=True).plannable - RUNNABLE == NEEDS_GROWING_MAP == {"explore"}
     blind = Means(camera=True)
-    assert blind.runnable - RUNNABLE == {"go_to_point", "go_to_pose"}
+    assert blind.runnable - RUNNABLE - TOOL_CALLS == {"go_to_point", "go_to_pose"}
     assert Means(camera=True, model=True).runnable - blind.runnable == {"look"}
     assert blind.plannable == RUNNABLE, "who sees no picture can't point at it"
     assert Means(camera=True, detector=True).lacks("explore") is Code.NOT_MAPPING
