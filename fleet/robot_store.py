@@ -94,10 +94,13 @@ class RobotStore:
             self._stops_turn += 1
             self._stops_until_s = 0.0
 
-    def confirm_stops(self, robot: str, ids: Collection[str]) -> None:
-        """Write down that a robot has confirmed these stops."""
-        mine = (stops.c.robot == robot) & stops.c.id.in_(list(ids))
-        self._write(stops.update().where(mine).values(confirmed_unix_s=self._wall()))
+    def confirm_stops(self, heard: Mapping[str, Collection[str]]) -> None:
+        """Write down which stops each robot has confirmed, all at once."""
+        now = self._wall()
+        with self.engine.begin() as connection:
+            for robot, ids in heard.items():
+                mine = (stops.c.robot == robot) & stops.c.id.in_(list(ids))
+                connection.execute(stops.update().where(mine).values(confirmed_unix_s=now))
         self.forget_stops()
 
     def stop_state(self, stop_id: str) -> tuple[list[str], list[str]]:

@@ -59,23 +59,30 @@ class Stops:
             ended = await asyncio.wait_for(noting, NOTE_S)
         except (SQLAlchemyError, TimeoutError):  # a stop waits for no disk
             return await self._stop_unwritten(stop_id, asked, forever=is_all)
-        acts = [asyncio.create_task(self._stop_robot(name)) for name in asked]
+        acts = {name: asyncio.create_task(self._ring(name)) for name in asked}
         if acts:
-            await asyncio.wait(acts, timeout=STOP_S)
+            await asyncio.wait(acts.values(), timeout=STOP_S)
+        heard = {name: act.result() for name, act in acts.items() if act.done() and act.result()}
         self._desk.wake([*ended, *self._desk.running])
-        confirmed, missing = await asyncio.to_thread(self._desk.store.stop_state, stop_id)
-        return _tell_stop(stop_id, confirmed, missing)
+        try:
+            await asyncio.to_thread(self._desk.store.confirm_stops, heard)
+            told = await asyncio.to_thread(self._desk.store.stop_state, stop_id)
+        except SQLAlchemyError:  # its row is there, so that it is repeated and then confirmed
+            told = list(heard), [name for name in asked if name not in heard]
+        for name in told[1]:
+            self._desk.watches[name].nudge()  # it is repeated there until confirmed
+        return _tell_stop(stop_id, *told)
 
     async def state(self, stop_id: str) -> dict[str, Any]:
         """Tell who has confirmed a stop by now."""
         return _tell_stop(stop_id, *await asyncio.to_thread(self._desk.store.stop_state, stop_id))
 
-    async def _stop_robot(self, name: str) -> None:
+    async def _ring(self, name: str) -> list[str]:
         try:
-            await self._desk.watches[name].stop_now()
+            return await self._desk.watches[name].ring_stops()
         except (RobotAway, RobotBusy, RobotRefusal, SQLAlchemyError) as trouble:
             log.warning("stop of %s: %s", name, trouble)
-        self._desk.watches[name].nudge()  # it is repeated there until confirmed
+            return []
 
     async def _stop_unwritten(
         self, stop_id: str, names: Sequence[str], *, forever: bool

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-POLL_S = 0.5
+POLL_S, IDLE_S = 0.5, 3.0
+"""From one round to the next: while a journal changes, and at most while it doesn't."""
 SILENT_S = 10.0
 """A robot that has not answered for so long is told as silent; Wi-Fi roams in a few seconds."""
 LOOK_S = 2.0
@@ -89,8 +90,8 @@ class RobotWatch:
         pause_s = POLL_S
         while True:
             try:
-                await self._round()
-                pause_s = POLL_S
+                has_changed = await self._round()
+                pause_s = POLL_S if has_changed else min(pause_s * 1.2, IDLE_S)
             except RobotAway as away:
                 await self._note_away(str(away))
                 pause_s = min(pause_s * 1.5, 5.0)
@@ -115,17 +116,16 @@ class RobotWatch:
                 await asyncio.wait_for(self._nudged.wait(), spread_s)
             self._nudged.clear()
 
-    async def stop_now(self) -> None:
-        """Tell the robot of all stops that it has not confirmed; silence is no error here.
+    async def ring_stops(self) -> list[str]:
+        """Tell the robot of all stops that it has not confirmed; return those it has heard now.
 
-        It needs no proof of who answers: a stop harms nobody.
+        It needs no proof of who answers: a stop harms nobody. Raises as ``FleetLink.ask``.
         """
         ids = await asyncio.to_thread(self._store.unconfirmed_stops, self.name)
-        if not ids:
-            return
-        self.is_ready = False
-        await self.link.post("/v1/stop", {"source": SOURCE})
-        await asyncio.to_thread(self._store.confirm_stops, self.name, ids)
+        if ids:
+            self.is_ready = False
+            await self.link.post("/v1/stop", {"source": SOURCE})
+        return ids
 
     async def reconcile(self, mission: MissionRow) -> None:
         """Ask for a mission's goal by its id. Raises as ``FleetLink.ask``."""
@@ -167,8 +167,10 @@ class RobotWatch:
         else:
             await asyncio.to_thread(self._store.apply_goals, self.name, [goal])
 
-    async def _round(self) -> None:
-        await self.stop_now()
+    async def _round(self) -> bool:
+        """Do all that is due at the robot; return whether its journal has changed."""
+        if rung := await self.ring_stops():
+            await asyncio.to_thread(self._store.confirm_stops, {self.name: rung})
         if not self.link.is_proven:
             card = await self.link.prove()
             card["skills"] = (await self._ask_of_old("/v1/skills")).get("skills", [])
@@ -178,12 +180,13 @@ class RobotWatch:
             await asyncio.to_thread(self._store.mark_heard, self.name)
             self._is_marked = False
         await self._withdraw()
-        await self._follow()
+        has_changed = await self._follow()
         self._note_heard()
         await self._look()
         is_first, self.is_ready, self.trouble = not self.is_ready, True, None
         if is_first:
             self._wake(())
+        return has_changed or is_first
 
     async def _withdraw(self) -> None:
         """Tell the robot of missions that people ended while it was silent."""
@@ -196,8 +199,9 @@ class RobotWatch:
             await self.reconcile(bound)
             await asyncio.to_thread(self._store.clear_wish, mission.id)
 
-    async def _follow(self) -> None:
-        """Take up changes of the journal; now and then ask for each open goal by its id."""
+    async def _follow(self) -> bool:
+        """Take up changes of the journal, if any; now and then ask for each open goal by its id."""
+        has_changed = False
         if self._cursor is None:
             rows = await asyncio.to_thread(self._store.robots)
             self._cursor = next(row.cursor for row in rows if row.name == self.name)
@@ -209,6 +213,7 @@ class RobotWatch:
                 self._looked_s = float("-inf")
                 await self._look()
             if goals or cursor != self._cursor:
+                has_changed = True
                 touched = await asyncio.to_thread(self._store.apply_goals, self.name, goals, cursor)
                 self._cursor = cursor
                 self._wake(touched)
@@ -218,6 +223,7 @@ class RobotWatch:
             for mission in await asyncio.to_thread(self._store.at_work, self.name):
                 await self.reconcile(mission)
             self._reconciled_s = time.monotonic()
+        return has_changed
 
     async def _look(self) -> None:
         if time.monotonic() - self._looked_s > LOOK_S:

@@ -161,6 +161,7 @@ async def _offer_once(desk: MissionDesk, watch: RobotWatch, mission: MissionRow)
     except RobotRefusal as refused:
         return await _judge_refusal(desk, watch, mission, refused)
     await asyncio.to_thread(desk.store.bind, mission.id, goal)
+    watch.nudge()  # from now on its journal changes
     return True
 
 

@@ -114,7 +114,7 @@ def test_a_stop_bars_what_was_ordered_before_it(store: FleetStore) -> None:
     assert not store.is_barred(replace(anyone, robot="r2"))
     assert not store.is_barred(replace(give(store, 3), robot="r1"))
     assert store.stop_state("s-1") == ([], ["r1"])
-    store.confirm_stops("r1", store.unconfirmed_stops("r1"))
+    store.confirm_stops({"r1": store.unconfirmed_stops("r1")})
     assert store.stop_state("s-1") == (["r1"], [])
 
 
@@ -182,7 +182,7 @@ def test_a_stop_and_its_confirmation_are_read_at_once(store: FleetStore) -> None
         store.stop(f"s-{number}", ["r1"], forever=False)
         assert store.unconfirmed_stops("r1") == [f"s-{number}"]
         assert store.unconfirmed_stops("r2") == []
-        store.confirm_stops("r1", [f"s-{number}"])
+        store.confirm_stops({"r1": [f"s-{number}"]})
 
 
 def test_a_stop_that_the_database_did_not_take_is_noted_once_and_bars_what_was_before(
