@@ -63,7 +63,7 @@ class Desk:
         self._tokens: dict[str, str] = {}
         self._tasks: dict[str, asyncio.Task[None]] = {}
         self.dispatcher = Dispatcher(store, self.watches, self._rows)
-        self.stops = Stops(self)
+        self.stops = Stops(store, self.watches, self.running, self.wake)
 
     # Life -----------------------------------------------------------------------------------------
 

@@ -17,9 +17,10 @@ from fleet.link import RobotAway, RobotBusy, RobotRefusal
 from fleet.watch import SOURCE, STOP_S
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 
-    from fleet.desk import Desk
+    from fleet.store import FleetStore
+    from fleet.watch import RobotWatch
 
 log = logging.getLogger(__name__)
 
@@ -30,20 +31,19 @@ NOTE_S = 1.0
 class Stops:
     """Ring the robots' stops, and tell who has confirmed."""
 
-    def __init__(self, desk: Desk) -> None:
-        self._desk = desk
+    def __init__(
+        self, store: FleetStore, watches: Mapping[str, RobotWatch], running: Collection[str],
+        wake: Callable[[Iterable[str]], None],
+    ) -> None:  # fmt: skip
+        self._store, self._watches, self._running, self._wake = store, watches, running, wake
 
     def robots_of(self, text: str) -> tuple[str, ...] | None:
         """Return whom a sentence stops; None: it is no bare stop."""
-        addressee, order = read_addressee(text, self._desk.watches)
+        addressee, order = read_addressee(text, self._watches)
         if not is_stop(order):
             return None
         named = addressee is not None and addressee.way in ("named", "each")
-        return (
-            addressee.names
-            if addressee is not None and named
-            else tuple(sorted(self._desk.watches))
-        )
+        return addressee.names if addressee is not None and named else tuple(sorted(self._watches))
 
     async def stop(self, names: Sequence[str] | None) -> dict[str, Any]:
         """Stop these robots, or all, and tell who has confirmed. It is repeated to the others.
@@ -51,11 +51,11 @@ class Stops:
         Raises:
             FleetError: ``unknown_robot``.
         """
-        known = tuple(sorted(self._desk.watches))
+        known = tuple(sorted(self._watches))
         asked = known if names is None else to_names(names, known)
         stop_id, is_all = f"s-{uuid.uuid4().hex[:20]}", set(asked) == set(known)
         try:
-            noting = asyncio.to_thread(self._desk.store.stop, stop_id, asked, forever=is_all)
+            noting = asyncio.to_thread(self._store.stop, stop_id, asked, forever=is_all)
             ended = await asyncio.wait_for(noting, NOTE_S)
         except (SQLAlchemyError, TimeoutError):  # a stop waits for no disk
             return await self._stop_unwritten(stop_id, asked, forever=is_all)
@@ -63,23 +63,23 @@ class Stops:
         if acts:
             await asyncio.wait(acts.values(), timeout=STOP_S)
         heard = {name: act.result() for name, act in acts.items() if act.done() and act.result()}
-        self._desk.wake([*ended, *self._desk.running])
+        self._wake([*ended, *self._running])
         try:
-            await asyncio.to_thread(self._desk.store.confirm_stops, heard)
-            told = await asyncio.to_thread(self._desk.store.stop_state, stop_id)
+            await asyncio.to_thread(self._store.confirm_stops, heard)
+            told = await asyncio.to_thread(self._store.stop_state, stop_id)
         except SQLAlchemyError:  # its row is there, so that it is repeated and then confirmed
             told = list(heard), [name for name in asked if name not in heard]
         for name in told[1]:
-            self._desk.watches[name].nudge()  # it is repeated there until confirmed
+            self._watches[name].nudge()  # it is repeated there until confirmed
         return _tell_stop(stop_id, *told)
 
     async def state(self, stop_id: str) -> dict[str, Any]:
         """Tell who has confirmed a stop by now."""
-        return _tell_stop(stop_id, *await asyncio.to_thread(self._desk.store.stop_state, stop_id))
+        return _tell_stop(stop_id, *await asyncio.to_thread(self._store.stop_state, stop_id))
 
     async def _ring(self, name: str) -> list[str]:
         try:
-            return await self._desk.watches[name].ring_stops()
+            return await self._watches[name].ring_stops()
         except (RobotAway, RobotBusy, RobotRefusal, SQLAlchemyError) as trouble:
             log.warning("stop of %s: %s", name, trouble)
             return []
@@ -90,11 +90,11 @@ class Stops:
         """Stop by the wires alone, where the database is away; its row is owed."""
         acts = {}
         for name in names:
-            self._desk.watches[name].is_ready = False  # nothing is offered before the row is there
-            acts[name] = self._desk.watches[name].link.post("/v1/stop", {"source": SOURCE})
+            self._watches[name].is_ready = False  # nothing is offered before the row is there
+            acts[name] = self._watches[name].link.post("/v1/stop", {"source": SOURCE})
         done = await asyncio.gather(*acts.values(), return_exceptions=True)
         heard = [name for name, answer in zip(acts, done, strict=True) if isinstance(answer, dict)]
-        self._desk.store.owe_stop(stop_id, names, forever=forever, heard=heard)
+        self._store.owe_stop(stop_id, names, forever=forever, heard=heard)
         return _tell_stop(stop_id, heard, [name for name in names if name not in heard])
 
 
