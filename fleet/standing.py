@@ -25,13 +25,12 @@ from fleet.house import zone_of
 from fleet.records import STANDING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     import sqlalchemy as sa
 
     from fleet.house import HouseRules
     from fleet.records import MissionRow
-    from fleet.store import FleetStore
 
 log = logging.getLogger(__name__)
 
@@ -66,10 +65,21 @@ class StandingRow:
         return runs_of(self.cron, self.zone, after_unix_s)
 
 
+class OrderBook(Protocol):
+    """Be where standing orders are kept."""
+
+    def rules(self) -> HouseRules: ...
+
+    def standing_orders(self) -> list[StandingRow]: ...
+
+    def note_run(self, order_id: str, until_unix_s: float, told: Mapping[str, Any]) -> None: ...
+
+
 class OrderTaker(Protocol):
     """Be where orders are given."""
 
-    store: FleetStore
+    @property
+    def store(self) -> OrderBook: ...
 
     async def order(
         self, text: str | None, steps: list[dict[str, Any]] | None, to: None, key: str | None,
