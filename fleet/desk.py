@@ -262,8 +262,8 @@ class Desk:
         robot = mission.robot or ""
         watch = self.watch_of(robot)
         try:
-            if not watch.link.is_proven:
-                raise RobotAway(robot)
+            if not watch.link.is_proven:  # as where this service stands by
+                await watch.link.prove()
             goal = await watch.link.post(f"/v1/goals/{mission.goal_id}/{act}", body)
         except (RobotAway, RobotBusy):
             raise FleetError("robot_silent", name=robot) from None
