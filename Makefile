@@ -47,11 +47,17 @@ fleet: $(EXTRAS) $(PAGE) ## start three simulated robots and their fleet; prints
 # Stories run real processes in real time; what needs minutes, a browser or a robot of its own is not
 # for `test`. Only the files that tell some are read, for reading all tests costs seconds. Unit tests
 # beside them starve them, nice or not: each robot is a session of its own to the scheduler.
-# What `make e2e` tells: robots of their own that take long to start or to drive, and the page in a browser.
-OWN_ROBOT := $(addprefix tests/e2e/,$(addsuffix .py,test_home_tour test_external_brain test_bases test_calibrate \
-  test_black_box test_fence_changed test_wheel test_model test_finds_at_home test_robot_changed test_stop_anywhere \
-  test_smart_home test_fleet test_tool_servers)) tests/deploy/test_separate_starts.py
-STORIES = $(filter-out $(OWN_ROBOT) tests/web/%,\
+# `e2e` tells three rows of files at once, each about as long as the drive through the whole home.
+HOME_ROW := tests/e2e/test_home_tour.py tests/e2e/test_external_brain.py tests/e2e/test_bases.py \
+  tests/deploy/test_separate_starts.py tests/e2e/test_fleet.py
+OWN_ROW := tests/e2e/test_calibrate.py tests/e2e/test_black_box.py tests/e2e/test_fence_changed.py tests/e2e/test_wheel.py \
+  tests/e2e/test_model.py tests/e2e/test_finds_at_home.py tests/e2e/test_robot_changed.py tests/e2e/test_stop_anywhere.py \
+  tests/e2e/test_smart_home.py tests/e2e/test_tool_servers.py
+PAGE_ROW := tests/web
+# These go with the two shorter rows: the page's would else be as long as both.
+PAGE_BESIDE_HOME := tests/web/test_asked_first.py tests/web/test_missions.py tests/web/test_people.py tests/web/test_points.py
+PAGE_BESIDE_OWN := tests/web/test_hand.py
+STORIES = $(filter-out $(HOME_ROW) $(OWN_ROW) $(PAGE_ROW)/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 # ROOM=planner/mission: what lies in that folder of tests; CHANGED=HEAD: what imports a file that differs from it.
 CHOSEN = $(addprefix tests/,$(ROOM)) $(if $(CHANGED),$(shell $(BIN)/python -m scripts.changed $(CHANGED)))
@@ -62,7 +68,10 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 	@$(if $(CHANGED)$(ROOM),$(if $(strip $(TOLD)),,exit 0;)) exec scripts/stories.sh -m "e2e and not home" $(TOLD) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
-	@exec scripts/stories.sh -m "e2e or home" $(OWN_ROBOT) tests/web $(ARGS)
+	@exec $(BIN)/python scripts/at_once.py \
+	  scripts/stories.sh -n 0 -m "e2e or home" $(HOME_ROW) $(PAGE_BESIDE_HOME) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(OWN_ROW) $(PAGE_BESIDE_OWN) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(PAGE_ROW) $(addprefix --ignore=,$(PAGE_BESIDE_HOME) $(PAGE_BESIDE_OWN)) $(ARGS)
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
 # that the others don't.
