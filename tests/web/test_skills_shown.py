@@ -39,7 +39,7 @@ def test_skills_are_listed_with_their_words_and_a_broken_one_with_line_and_cure(
     good, broken = folder / "evening_round.toml", folder / "broken.toml"
     try:
         good.write_text(ROUND.replace("PLACE", place), "utf-8")
-        broken.write_text('en = ["do nothing much"]\nsteps = [\n  {kind = "fly"},\n]\n', "utf-8")
+        broken.write_text('en = ["the little dance"]\nsteps = [\n  {kind = "fly"},\n]\n', "utf-8")
         row = page.locator('[data-skill="evening_round"]')
         row.get_by_text(words).wait_for()
         row.get_by_text(place).wait_for()

@@ -257,7 +257,8 @@ def _in_row(step: dict[str, Any], vocabulary: Vocabulary) -> dict[str, Any]:
 def _blanks(value: Any, name: str = "steps", deep: int = 0) -> Iterator[str]:
     """Yield the names of fields whose text says nothing."""
     if isinstance(value, str):
-        if says_nothing(value):
+        is_left_out = name == "arguments" and not value  # as the prompt says of a tool's "?"
+        if says_nothing(value) and not is_left_out:
             yield clean(name)[:40]
         return
     if deep > 2 * MAX_DEPTH + 2:  # too deep anyhow: the plan's own check says so
