@@ -65,7 +65,7 @@ class StandingRow:
         return runs_of(self.cron, self.zone, after_unix_s)
 
 
-class OrderBook(Protocol):
+class StandingBook(Protocol):
     """Be where standing orders are kept."""
 
     def rules(self) -> HouseRules: ...
@@ -79,7 +79,7 @@ class OrderTaker(Protocol):
     """Be where orders are given."""
 
     @property
-    def store(self) -> OrderBook: ...
+    def store(self) -> StandingBook: ...
 
     async def order(
         self, text: str | None, steps: list[dict[str, Any]] | None, to: None, key: str | None,
