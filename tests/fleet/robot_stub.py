@@ -322,7 +322,25 @@ class Door(BaseHTTPRequestHandler):
 
 
 class Server(ThreadingHTTPServer):
+    """A robot's door, and the thread that lives its journal until the door is closed."""
+
     daemon_threads = True
+
+    def __init__(self, *given: Any) -> None:
+        self._closed = threading.Event()
+        super().__init__(*given)
+
+    def live(self, journal: Journal) -> None:
+        def tick() -> None:
+            while not self._closed.wait(0.02):
+                with journal.lock:
+                    journal.tick()
+
+        threading.Thread(target=tick, daemon=True).start()
+
+    def server_close(self) -> None:
+        super().server_close()
+        self._closed.set()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         pass
@@ -340,13 +358,7 @@ def make_server(
     if tls is not None:
         server.socket = tls.wrap_socket(server.socket, server_side=True)
 
-    def work() -> None:
-        while True:
-            time.sleep(0.02)
-            with journal.lock:
-                journal.tick()
-
-    threading.Thread(target=work, daemon=True).start()
+    server.live(journal)
     return server
 
 

@@ -6,8 +6,8 @@ import errno
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -76,7 +76,7 @@ def kernel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> K
     made = Kernel(**getattr(request, "param", {}))
     for name in ("getpid", "getsid", "setsid", "getpriority", "nice"):
         monkeypatch.setattr(os, name, getattr(made, name))
-    monkeypatch.setattr(time, "sleep", made.sleep)
+    monkeypatch.setattr(priority, "time", SimpleNamespace(sleep=made.sleep))
     monkeypatch.setattr(priority, "_write_autogroup", made.put)
     monkeypatch.setattr(priority, "session_nice", lambda: made.session)
     return made
