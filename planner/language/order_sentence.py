@@ -18,7 +18,7 @@ from planner.language.schedule import (
     ScheduleCommand,
 )
 from planner.language.sentence import parse
-from planner.plan import Clarify, Code, Option, say_same
+from planner.plan import Clarify, Code, Option, StepPlan, say_same
 from planner.plan.base import Frozen
 from planner.plan.order_steps import OrderAdd, OrderChange, OrderRemove
 
@@ -43,10 +43,13 @@ _CALLED = re.compile(r"^(?:the|my|that|your) | ?\bones?$|的?那一?[个项条]$
 """What stands about a name: "the pills one" is "pills"."""
 
 
-def offer_order(text: str) -> Clarify:
-    """Return the question whether a standing order is to be kept or changed so."""
+def offer_order(text: str, deed: StepPlan | None = None) -> Clarify:
+    """Return the question whether a standing order is to be kept or changed so.
+
+    ``deed``: what it does each time; None: the sentence is read.
+    """
     question = say("standing.proposed", order=text)
-    option = Option(label=say_same(text), text=text)
+    option = Option(label=say_same(text), text=text, plan=deed, is_standing=deed is not None)
     return Clarify(code=Code.NOT_UNDERSTOOD, question=question, options=(option,))
 
 

@@ -13,7 +13,7 @@ from planner.brain.situation import Situation
 from planner.mission.skills.actions import Way
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
-from planner.plan import Bilingual, ChangedOrder, Language, LastOrder, Span
+from planner.plan import Bilingual, ChangedOrder, Language, LastOrder, Span, StepPlan
 from wire import Pose2
 
 
@@ -45,6 +45,8 @@ class AskBrain:
     """Where things stand, and what came of the goals before."""
     changed: ChangedOrder | None = None
     """What the text makes of the order before it, for the built-in brain."""
+    deed: StepPlan | None = None
+    """What the standing order that the text is does each time, where the person was shown it."""
 
     @property
     def own_words(self) -> str:

@@ -99,27 +99,14 @@ def submit(turn: Transaction, event: Submitted) -> None:
     order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
     turn.set(order=order)
     mission = Mission(
-        id=event.id,
-        order=order,
-        text=event.text,
-        changed=event.changed,
-        points=event.points,
-        language=event.language,
-        state=FIRST,
-        confirm=event.confirm,
-        replace=event.replace,
-        first=event.first,
-        doubtful_stop=event.doubtful_stop,
-        interrupted=event.interrupts,
-        given_under_hold=hold_now(turn, event.source),
-        source=event.source,
-        by=event.by,
-        map_id=turn.book.facts.map_id,
-        accepted_at=find_robot(turn.book),
+        id=event.id, order=order, text=event.text, changed=event.changed, points=event.points,
+        language=event.language, state=FIRST, confirm=event.confirm, replace=event.replace,
+        first=event.first, doubtful_stop=event.doubtful_stop, interrupted=event.interrupts,
+        given_under_hold=hold_now(turn, event.source), source=event.source, by=event.by,
+        map_id=turn.book.facts.map_id, accepted_at=find_robot(turn.book),
         departed_at=departure_of(turn.book, turn.now_s),
-        created_unix_s=now_unix_s,
-        updated_unix_s=now_unix_s,
-    )
+        created_unix_s=now_unix_s, updated_unix_s=now_unix_s,
+    )  # fmt: skip
     if event.stop or (event.doubtful_stop and not event.echoed):
         end_stopped(turn, mission, event.echoed, event.also or tell_left(event.rest))
         return
@@ -131,12 +118,14 @@ def submit(turn: Transaction, event: Submitted) -> None:
     _think(turn, turn.put(mission))
 
 
-def _think_anew(turn: Transaction, mission: Mission, cause: Cause) -> None:
+def _think_anew(
+    turn: Transaction, mission: Mission, cause: Cause, deed: StepPlan | None = None
+) -> None:
     """Have a brain think about an order again that waited for a person until now."""
-    _think(turn, turn.move_to(mission, cause, reason=None, outcome=None, plan=None))
+    _think(turn, turn.move_to(mission, cause, reason=None, outcome=None, plan=None), deed)
 
 
-def _think(turn: Transaction, mission: Mission) -> None:
+def _think(turn: Transaction, mission: Mission, deed: StepPlan | None = None) -> None:
     pose = turn.book.status.base_in_map if turn.book.status is not None else None
     room = spot_at(turn.book.facts, pose).room
     turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
@@ -144,7 +133,8 @@ def _think(turn: Transaction, mission: Mission) -> None:
                        departed=mission.departed_at is not None,
                        newest=newest_order(turn.book, mission.id, turn.now_s),
                        situation=situation_of(turn.book, mission, turn.now_s),
-                       changed=None if mission.replies else mission.changed))  # fmt: skip
+                       changed=None if mission.replies else mission.changed,
+                       deed=deed))  # fmt: skip
 
 
 def take_plan(turn: Transaction, event: Planned) -> None:
@@ -270,8 +260,9 @@ def reply(turn: Transaction, mission: Mission, text: str, by: str) -> None:
         turn.move_to(mission, PersonCause.EXPLAINS, reason=None, outcome=None, plan=None)
         take_plan(turn, Planned(mission.id, offered, None, mission.brain))
     else:
+        deed = find_offered_plan(mission, text, is_standing=True)
         mission = note_answer(turn, mission, complete_order(turn.book.facts, mission, text))
-        _think_anew(turn, mission, PersonCause.EXPLAINS)
+        _think_anew(turn, mission, PersonCause.EXPLAINS, deed)
 
 
 def pause(turn: Transaction, mission: Mission) -> None:

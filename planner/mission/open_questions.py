@@ -83,13 +83,19 @@ def find_choice(mission: Mission, answer: str) -> str | None:
     return plan.options[chosen].text if chosen is not None else None
 
 
-def find_offered_plan(mission: Mission, answer: str) -> StepPlan | None:
-    """Return the plan that was laid before a person and that this answer takes; None: none."""
+def find_offered_plan(
+    mission: Mission, answer: str, *, is_standing: bool = False
+) -> StepPlan | None:
+    """Return the plan that was laid before a person and that this answer takes; None: none.
+
+    ``is_standing``: what the standing order does each time that was laid before the person.
+    """
     plan = mission.plan
     if plan is None or mission.state is not GoalState.NEEDS_CLARIFICATION or asks(mission):
         return None
     order = find_offer(mission) if parse(answer).consent else find_choice(mission, answer)
-    return next((each.plan for each in plan.options if each.text in (order, answer)), None)
+    taken = (each for each in plan.options if each.text in (order, answer))
+    return next((each.plan for each in taken if each.is_standing is is_standing), None)
 
 
 def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) -> Mission:

@@ -30,6 +30,7 @@ from planner.plan import (
     Language,
     Outcome,
     Refuse,
+    Step,
     StepPlan,
     StepRecord,
     plan_record,
@@ -126,8 +127,9 @@ class StandingGoals:
         return before.goal if before is not None else None
 
     async def consider(
-        self, text: str, language: Language, goal_id: str, standing: str = ""
-    ) -> Planned:
+        self, text: str, language: Language, goal_id: str, standing: str = "",
+        deed: StepPlan | None = None,
+    ) -> Planned:  # fmt: skip
         """Have an order understood and judged as a goal would be; nothing is given.
 
         Args:
@@ -135,9 +137,12 @@ class StandingGoals:
             language: its language.
             goal_id: to whose account a model's calls go.
             standing: the whole sentence, with its time.
+            deed: its plan, where it is known without a brain.
         """
         ask = AskBrain(goal_id, text, language, order=text, standing=standing)
-        planned = await self._think(replace(ask, situation=Situation()))
+        planned = Planned(goal_id, deed)
+        if deed is None:
+            planned = await self._think(replace(ask, situation=Situation()))
         plan = planned.plan
         if not isinstance(plan, StepPlan):
             return planned
@@ -152,8 +157,13 @@ class StandingGoals:
         outcome = unwalkable(self.book, stand_in, plan_record(plan).steps)
         return planned if outcome is None else Planned(planned.id, None, outcome, planned.brain)
 
-    async def give(self, goal_id: str, text: str, language: Language, key: str, source: str) -> str:
+    async def give(
+        self, goal_id: str, text: str, language: Language, key: str, source: str,
+        steps: tuple[Step, ...] = (),
+    ) -> str:  # fmt: skip
         """Give the goal of one firing and return its id; the same key gives the same goal.
+
+        With ``steps`` these are walked, and the text is told and read by nobody.
 
         Raises:
             QueueFull: there is no room among the open goals.
@@ -166,7 +176,8 @@ class StandingGoals:
         body = hashlib.sha256(f"{source}\n{text}".encode()).hexdigest()[:32]
         request = GoalKey(key, body, goal_id)
         self._repeats.remember(request)
-        self._loop.event(Submitted(goal_id, text, language, source=source, by="order"), request)
+        given = Submitted(goal_id, text, language, points=steps, source=source, by="order")
+        self._loop.event(given, request)
         await self._repeats.ensure_written(self._loop, goal_id, request)
         return goal_id
 

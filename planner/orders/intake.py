@@ -81,8 +81,9 @@ class Considers(Protocol):
     def book(self) -> MissionState: ...
 
     async def consider(
-        self, text: str, language: Language, goal_id: str, standing: str = ""
-    ) -> Planned: ...
+        self, text: str, language: Language, goal_id: str, standing: str = "",
+        deed: StepPlan | None = None,
+    ) -> Planned: ...  # fmt: skip
 
 
 class OrderIntake:
@@ -130,13 +131,11 @@ class OrderIntake:
 
     def allowed_steps(self, source: str) -> tuple[StepRecord, ...] | None:
         """Return what the standing order of a goal may do; None where it is gone."""
-        order = self._of(source)
-        return order.allowed if order is not None else None
+        return None if (order := self._of(source)) is None else order.allowed
 
     def sentence_of(self, source: str) -> tuple[str, str | None]:
         """Return the sentence of a goal's standing order, and a reminder's fixed words."""
-        order = self._of(source)
-        return ("", None) if order is None else (order.text, order.reminder)
+        return ("", None) if (order := self._of(source)) is None else (order.text, order.reminder)
 
     def _of(self, source: str) -> StandingOrder | None:
         return self._keeper.book.orders.get(source.removeprefix(ORDER_SOURCE))
@@ -158,14 +157,14 @@ class OrderIntake:
         known = said.intent is not None or said.consent is not None or said.orders_stop
         if command.reminder is not None or not command.order.strip() or known:
             return None
-        return await self._goals.consider(command.order, ask.language, ask.id, ask.text)
+        return await self._goals.consider(command.order, ask.language, ask.id, ask.text, ask.deed)
 
     async def _keep(
         self, command: ScheduleCommand, ask: AskBrain, given: Mission, planned: Planned | None
     ) -> AnswerPlan | Clarify | Refuse:
         """Keep a new order and tell it, or say why not."""
         try:
-            new = read_new_order(command, ask.language, given.text, given.source)
+            new = read_new_order(command, ask.language, given.text, given.source, ask.deed)
             order = await self.give(new, ask.id, planned)
         except OrderRefusal as refused:
             return refused.plan
@@ -204,7 +203,7 @@ class OrderIntake:
                     text=new.text[:MAX_ORDER_CHARACTERS], order=new.order,
                     language=new.language, rule=rule, reminder=new.reminder, source=new.source,
                     allowed=allowed, created_unix_s=now_s, handled_unix_s=now_s,
-                    skipped=new.skipped, paused=new.paused,
+                    skipped=new.skipped, paused=new.paused, steps=new.steps,
                 )  # fmt: skip
                 try:
                     await keeper.keep(order)

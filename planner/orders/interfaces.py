@@ -12,7 +12,7 @@ from planner.orders.scheduler import ClockReading
 
 if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
-    from planner.plan import Language
+    from planner.plan import Language, Step
 
 
 class GoalGiver(Protocol):
@@ -26,8 +26,9 @@ class GoalGiver(Protocol):
     def find(self, key: str) -> str | None: ...
 
     async def give(
-        self, goal_id: str, text: str, language: Language, key: str, source: str
-    ) -> str: ...
+        self, goal_id: str, text: str, language: Language, key: str, source: str,
+        steps: tuple[Step, ...] = (),
+    ) -> str: ...  # fmt: skip
 
     def outcome(self, goal_id: str) -> Mission | None: ...
 

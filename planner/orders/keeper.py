@@ -226,7 +226,7 @@ class OrderKeeper:
         key, source = key_of(order, firing.serial), f"{ORDER_SOURCE}{order.id}"
         try:
             goal = await self.goals.give(
-                self.clocks.new_id(), order.order, order.language, key, source
+                self.clocks.new_id(), order.order, order.language, key, source, order.steps
             )
         except MissionError as refused:
             self._miss(order, firing, refused.code)

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from planner.mission.events import Planned
     from planner.orders.order import StandingOrder
     from planner.orders.scheduler import OrderBook
-    from planner.plan import StepRecord
+    from planner.plan import Step, StepPlan, StepRecord
     from planner.plan.timing import Rule
 
 QUIET_LOOKED = 30
@@ -66,6 +66,7 @@ class NewOrder:
     source: str = "api"
     skipped: tuple[date, ...] = ()
     paused: bool = False
+    steps: tuple[Step, ...] = ()
 
 
 class OrderQuestion(Exception):
@@ -78,9 +79,10 @@ class OrderQuestion(Exception):
 
 
 def read_new_order(
-    command: ScheduleCommand, language: Language, text: str, source: str
-) -> NewOrder:
-    """Return what a sentence wants kept.
+    command: ScheduleCommand, language: Language, text: str, source: str,
+    deed: StepPlan | None = None,
+) -> NewOrder:  # fmt: skip
+    """Return what a sentence wants kept; ``deed``: what it is to do, where that was agreed to.
 
     Raises:
         OrderRefusal: its time is none that can be kept.
@@ -90,7 +92,10 @@ def read_new_order(
     order = command.order
     if command.reminder is not None:
         order = say_goal_of_reminder(language.value, command.reminder)
-    return NewOrder(command.when, order, language, text, command.words, command.reminder, source)
+    steps = deed.steps if deed is not None else ()
+    return NewOrder(
+        command.when, order, language, text, command.words, command.reminder, source, steps=steps
+    )
 
 
 def order_of_text(text: str, language: Language | None, source: str) -> NewOrder:
@@ -221,7 +226,12 @@ def put_time_before(asked: Clarify, words: str) -> Clarify:
     if not words or not asked.options:
         return Clarify(code=asked.code, question=say("standing.say_whole", question=asked.question))
     options = tuple(
-        Option(label=each.label, text=f"{words} {each.text}".strip()[:2000])
+        each.model_copy(
+            update={
+                "text": f"{words} {each.text}".strip()[:2000],
+                "is_standing": each.plan is not None,
+            }
+        )
         for each in asked.options
     )
     return Clarify(code=asked.code, question=asked.question, options=options)

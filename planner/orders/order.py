@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 from pydantic import Field
 
 from planner.mission.state import RESERVED_KEYS
-from planner.plan import Bilingual, Frozen, Language, StepRecord
+from planner.plan import Bilingual, Frozen, Language, Step, StepRecord
 from planner.plan.timing import AtRule, EventRule, Rule
 
 if TYPE_CHECKING:
@@ -47,6 +47,8 @@ class StandingOrder(Frozen):
     source: str = "api"
     allowed: tuple[StepRecord, ...] = ()
     """What it may do: the plan that was told to the person as the order was given."""
+    steps: tuple[Step, ...] = ()
+    """What it does, where a person said yes to these; none: the order is read each time."""
     paused: bool = False
     resume_unix_s: float | None = None
     """A pause ends by itself then."""

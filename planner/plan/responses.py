@@ -56,6 +56,8 @@ class Option(Frozen):
     text: str = Field(min_length=1, max_length=2000)
     plan: StepPlan | None = None
     """What is done upon this reply as it stands; None: the sentence is read. No model writes it."""
+    is_standing: bool = False
+    """The sentence is a standing order, and the plan what it does each time."""
 
 
 class Clarify(Frozen):

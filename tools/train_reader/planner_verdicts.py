@@ -3,7 +3,8 @@
 A sentence is right at once where the steps are those of its label, right after one yes where the
 one plan laid before the person is, and a wrong motion where something is done at once that moves
 and is not meant. Steps are compared by what drives, where, and under which condition; words by
-containing each other.
+containing each other. A word to the planner itself is right where it is of the label's kind and
+names what the label names; a change where it makes the label's steps of what was said before.
 """
 
 from __future__ import annotations
@@ -16,9 +17,22 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from planner.language.commands import (
+    CancelCommand,
+    Faster,
+    ForgetFacts,
+    HereCommand,
+    PauseCommand,
+    Remember,
+    ResumeCommand,
+    Slower,
+    TeachFact,
+)
 from planner.language.grammar.context import Context
 from planner.language.readers import OrderWords, read_order
-from planner.language.schedule import ScheduleCommand
+from planner.language.recall import read_span
+from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, ScheduleCommand
+from planner.language.semantic_parser.changed_order import CHANGES, change_order, name_pointed
 from planner.language.semantic_parser.normal_plan import normalise_plan
 from planner.language.semantic_parser.plan_grammar import ALONE, FORMS, SlotKind, parse_plan
 from planner.language.semantic_parser.plan_steps import StepMaker
@@ -29,7 +43,10 @@ from planner.plan import (
     Bilingual,
     Clarify,
     Entry,
+    Find,
     Language,
+    LastOrder,
+    Option,
     Plan,
     StepPlan,
     Vocabulary,
@@ -40,7 +57,7 @@ from tools.train_reader.sentences import fault_of, read_sentences
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from planner.language.semantic_parser.plan_grammar import LabelledPlan
+    from planner.language.semantic_parser.plan_grammar import LabelledPlan, PlanNode
     from planner.plan import Step, StepNode
     from tools.train_reader.sentences import WrittenSentence
 
@@ -49,8 +66,21 @@ _MOVES = frozenset(
     {"go_to", "stand_at", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "find", "count", "follow", "look"}
 )
-_SPEECH = ("say", "ask")
 _CONTEXT = Context(runnable=frozenset(EVERY_KIND))
+_INTENTS: dict[str, type[object]] = {
+    "pause": PauseCommand,
+    "resume": ResumeCommand,
+    "slower": Slower,
+    "faster": Faster,
+    "cancel": CancelCommand,
+    "fact": TeachFact,
+    "forget": ForgetFacts,
+    "name_here": Remember,
+    "here": HereCommand,
+    "orders": ListOrders,
+    "order_move": CorrectOrder,
+} | dict.fromkeys(("order_remove", "order_pause", "order_resume", "order_skip"), ChangeOrders)
+"""What a label's words are to the planner itself."""
 
 
 class PlannerVerdict(StrEnum):
@@ -138,39 +168,102 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> Plan:
     return read_order(OrderWords(parse(text), vocabulary, context)).plan
 
 
-def _order_at(text: str, when: str) -> str:
-    """Return what a standing order does at a time; empty where it is for another one."""
+def _said_before(row: WrittenSentence, vocabulary: Vocabulary) -> LastOrder | None:
+    """Return the order before, of a situation that tells one."""
+    _, found, rest = row.situation.partition("said before: ")
+    plan = _read(rest.partition(";")[0], vocabulary, _CONTEXT) if found else None
+    if not isinstance(plan, StepPlan):
+        return None
+    steps = plan.steps
+    thing = next((step.object for step in steps if isinstance(step, Find)), None)
+    ended = row.situation.startswith(("robot idle", "robot has", "robot waiting"))
+    return LastOrder(steps, () if ended else steps, ended, thing=thing, names=vocabulary)
+
+
+def _is_meant(intent: object, label: PlanNode) -> bool:
+    """Return whether a word to the planner is of the label's kind and names what it names."""
+    if not isinstance(intent, _INTENTS[label.form]):
+        return False
+    if isinstance(intent, ChangeOrders) and label.form != f"order_{intent.act}":
+        return False
+    told = repr(intent).casefold()
+    which = label.slots[0][0] if label.slots and label.slots[0] else ""
+    return all(word in told for word in which.casefold().split() if word not in _LITTLE_WORDS)
+
+
+_LITTLE_WORDS = frozenset({"the", "one", "that", "my", "is", "are"})
+
+
+def _judge_words(row: WrittenSentence, label: PlanNode, made: Plan) -> PlannerVerdict:
+    """Return what becomes of a word to the planner itself."""
+    if _is_meant(parse(row.words).intent, label):
+        return PlannerVerdict.AT_ONCE
+    if isinstance(made, StepPlan):
+        return PlannerVerdict.WRONG_MOTION if _moves(made) else PlannerVerdict.WRONG_STILL
+    options = made.options if isinstance(made, Clarify) else ()
+    if len(options) != 1:
+        return PlannerVerdict.ASKED
+    meant = options[0].plan is None and _is_meant(parse(options[0].text).intent, label)
+    return PlannerVerdict.AFTER_YES if meant else PlannerVerdict.OTHER_OFFER
+
+
+def _read_kept(text: str, when: str, vocabulary: Vocabulary, context: Context) -> Plan | None:
+    """Return what a standing order does at a time; None where it is for another one."""
     kept = parse(text).intent
-    if not isinstance(kept, ScheduleCommand) or kept.words.casefold() not in when.casefold():
-        return ""
-    return kept.order if kept.reminder is None else text.removeprefix(kept.words)
+    if not isinstance(kept, ScheduleCommand) or kept.problem is not None:
+        return None
+    if when and kept.words.casefold() not in when.casefold():
+        return None
+    order = kept.order
+    if kept.reminder is not None:
+        lead = "say" if context.language is Language.EN else "说"
+        order = f"{lead} “{kept.reminder}”"
+    return _read(order, vocabulary, context) if order else None
+
+
+def _laid_plan(option: Option, when: str) -> Plan | None:
+    """Return the plan of an offer; None: it has none, or does it at another time."""
+    if not option.is_standing:
+        return None if when else option.plan
+    kept = parse(option.text).intent
+    is_due = isinstance(kept, ScheduleCommand) and kept.words.casefold() in when.casefold()
+    return option.plan if is_due else None
 
 
 def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
     """Return what the offline planner makes of a sentence."""
     vocabulary = vocabulary_of(row.home)
     ids = {name.casefold(): f"place_{number}" for number, name in enumerate(row.home)}
-    label = normalise_plan(parse_plan(row.label))
-    maker = StepMaker(vocabulary, Language(row.language), lambda words: "10:00")
-    meant = None if label[0].form in ALONE else maker.plan(_with_ids(label, ids))
-    context = _CONTEXT.model_copy(update={"language": Language(row.language)})
-    made = _read(row.words, vocabulary, context)
-    quiet = label[0].form in ("none", "refuse")
+    label = _with_ids(normalise_plan(parse_plan(row.label)), ids)
+    form, last = label[0].form, _said_before(row, vocabulary)
+    language = Language(row.language)
+    context = _CONTEXT.model_copy(update={"language": language, "newest": last})
+    if form in _INTENTS:
+        return _judge_words(row, label[0], _read(row.words, vocabulary, context))
+    maker = StepMaker(vocabulary, language, lambda words: "10:00", read_span)
+    when = label[0].slots[0][0] if form == "at" else ""
+    deed = name_pointed(label[0].blocks[0] if form == "at" else label, last)
+    meant = maker.plan(deed) if form not in ALONE else None
+    if form in CHANGES:
+        meant = change_order(label[0], last)
+    made: Plan | None = _read(row.words, vocabulary, context)
+    at_once = _read_kept(row.words, when, vocabulary, context) if form == "at" else made
+    if isinstance(at_once, StepPlan) and meant is not None and _is_same(at_once, meant):
+        return PlannerVerdict.AT_ONCE
+    if form == "at" and isinstance(at_once, Clarify):
+        made, when = at_once, ""
     if isinstance(made, StepPlan):
-        if meant is not None and _is_same(made, meant):
-            return PlannerVerdict.AT_ONCE
         return PlannerVerdict.WRONG_MOTION if _moves(made) else PlannerVerdict.WRONG_STILL
     options = made.options if isinstance(made, Clarify) else ()
     if len(options) == 1:
-        laid: Plan | None = options[0].plan
-        text = options[0].text
-        if label[0].form == "at" and laid is None:
-            meant = maker.plan(_with_ids(label[0].blocks[0], ids))
-            text = _order_at(text, label[0].slots[0][0])
-        laid = laid or _read(text, vocabulary, context)
+        text, laid = options[0].text, _laid_plan(options[0], when)
+        if laid is None:
+            kept = _read_kept(text, when, vocabulary, context) if when else None
+            laid = kept if when else _read(text, vocabulary, context)
         if meant is not None and isinstance(laid, StepPlan) and _is_same(laid, meant):
             return PlannerVerdict.AFTER_YES
         return PlannerVerdict.OTHER_OFFER
+    quiet = form in ("none", "refuse")
     return PlannerVerdict.QUIET if quiet else PlannerVerdict.ASKED
 
 

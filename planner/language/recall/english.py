@@ -25,9 +25,15 @@ TAIL = re.compile(
     r"|thank you|again|at all|before|previously|robot|pons))+$"
 )
 SPANS = (
-    ("hour", r"(?:with)?in the (?:last|past) (?:half )?hour|just now|a moment ago|a minute ago"),
+    (
+        "hour",
+        (
+            r"(?:with)?in the (?:last|past) (?:half )?hour|just now"
+            r"|(?:an hour|a moment|a minute) ago"
+        ),
+    ),
     ("morning", r"(?:earlier )?this morning|all morning|the whole morning"),
-    ("afternoon", r"(?:earlier )?this afternoon|all afternoon"),
+    ("afternoon", r"(?:earlier )?this afternoon|in the afternoon|all afternoon"),
     ("evening", r"(?:earlier )?this evening|tonight"),
     ("night", r"last night|yesterday (?:evening|night)|during the night"),
     ("yesterday", r"(?:since )?yesterday(?: (?:morning|afternoon))?|the day before"),

@@ -67,6 +67,14 @@ def read_recall(text: str, vocabulary: Vocabulary, room: str | None = None) -> R
     return (_read_chinese if words is chinese else _read_english)(asked, room)
 
 
+def read_span(words: str) -> Span | None:
+    """Return the time before that words alone mean, as "this week"; None: they mean none."""
+    said = normalise(words).strip(_ENDS)
+    spans = chinese.SPANS if has_chinese(words) else english.SPANS
+    found = (span for span, pattern in spans if re.fullmatch(pattern, said))
+    return cast("Span | None", next(found, None))
+
+
 def _take_apart(marked: MarkedText, words: ModuleType, room: str | None) -> _Question | None:
     """Take courtesy, time and, in English, the place off a sentence."""
     said = marked.text.strip(_ENDS)

@@ -77,7 +77,7 @@ _WEEK_SPAN = re.compile(
     rf"(?:每个?)?{_WEEK}(?P<first>{_DAY})(?:到|至){_WEEK}?(?P<last>{_DAY})(?:的?每天)?"
 )
 _HOURLY = re.compile(
-    r"每(?:隔)?(?:一)?(?P<half>半)?个?(?:小时|钟头)(?:一次)?|每个?(?:到)?整点(?:的时候)?|(?:一)?到整点"
+    r"每(?:隔|过)?(?:一)?(?:(?P<half>半)?个?(?:小时|钟头)|(?P<quarter>刻钟))(?:一次)?|每个?(?:到)?整点(?:的时候)?|(?:一)?到整点"
 )
 _EVERY_SO = re.compile(rf"每(?:隔|过)?{ZH_DURATION}(?:一次)?")
 _EVERY_ONE = re.compile(r"每(?:(?P<minute>分)钟?|秒钟?)")
@@ -123,13 +123,13 @@ _EVENTS: tuple[tuple[str, WorldEvent], ...] = (
     (rf"{_SOMEBODY}(?:一)?从{_DOOR}(?:走)?(?:进来|进门|进屋|回来|过来)", WorldEvent.PERSON_SEEN),
     (rf"(?:家里|家中|{_DOOR})(?:一)?(?:有(?:人|客人)(?:来|进来|进门|上门|敲门进来)|来(?:了)?(?:人|客人))", WorldEvent.PERSON_SEEN),
     (r"(?:有人|有客人|客人)(?:一)?上门|来(?:了)?客人", WorldEvent.PERSON_SEEN),
-    (rf"{_SOMEBODY}(?:一)?(?:走)?(?:进来|进门|进屋|回家|回来|到家|来访|来|过来|出现|到|在门口)", WorldEvent.PERSON_SEEN),
+    (rf"{_SOMEBODY}(?:一)?(?:走)?(?:进来|进门|进屋|回家|回来|到家|来访|来|过来|出现|经过|路过|到|在门口)|(?:屋里|家里)(?:一)?有人", WorldEvent.PERSON_SEEN),
     (r"(?:看到|看见|发现|遇到|见到)(?:有)?人", WorldEvent.PERSON_SEEN),
     (r"(?:有|发现|看到)(?:任何|什么)?(?:动静|东西在?动|移动)", WorldEvent.MOVEMENT),
-    (r"(?:电量|电池|电)(?:过|太|很|变)?(?:低|不足|不够|快没)|(?:快)?没电|电快(?:用完|没)", WorldEvent.BATTERY_LOW),
+    (r"(?:电量|电池|电)(?:过|太|很|变|一)?(?:低|不足|不够|快没)|(?:快)?没电|电快(?:用完|没)", WorldEvent.BATTERY_LOW),
     (r"(?:任务|目标)(?:失败|没完成|出错)", WorldEvent.GOAL_FAILED),
     (r"(?:任务|目标)(?:完成|结束|做完)", WorldEvent.GOAL_DONE),
-    (r"(?:回到|到)(?:了)?家", WorldEvent.ARRIVED_HOME),
+    (r"(?:回到|到)(?:了)?(?:家|充电[座桩])", WorldEvent.ARRIVED_HOME),
 )  # fmt: skip
 
 
@@ -297,7 +297,10 @@ PARTS: tuple[PartForm, ...] = (
     (_WEEKDAY, _that_weekday),
     (_LATER, _days_on),
     (_IN, lambda found: after_of(found, _number)),
-    (_HOURLY, lambda found: Interval(1800.0 if found["half"] else 3600.0)),
+    (
+        _HOURLY,
+        lambda found: Interval(60.0 * (15 if found["quarter"] else 30 if found["half"] else 60)),
+    ),
     (_EVERY_SO, lambda found: interval_of(seconds(found["number"], found["unit"]))),
     (_EVERY_ONE, lambda found: Interval(60.0 if found["minute"] else 1.0)),
     (_WEEK_SPAN, _week_span),

@@ -72,14 +72,16 @@ _IN_THE = re.compile(rf"(?:in the (?P<a>{_PART})|at (?P<b>night|noon)){_END}")
 _AT_NOON = re.compile(rf"at noon{_END}")
 _EVERY = re.compile(
     rf"(?:(?:every|each)(?: single)? (?P<what>(?:day|weekday|workday|working day|weekend)(?= (?P<part>{_PART})\b)?|{_PART})(?(part) (?:{_PART}))"
-    rf"|(?P<daily>daily|nightly)|on (?P<plural>weekdays|workdays|weekends)|at (?:the )?weekends?)"
+    rf"|(?P<daily>daily|nightly)|(?:on )?(?P<plural>weekdays|workdays|weekends)|at (?:the )?weekends?)"
     rf"{_END}"
 )
 _WEEKDAYS = re.compile(
     rf"(?:(?P<every>every|each) |on )(?P<days>(?:{_DAY})s?(?:(?:, ?| and |, and )(?:on )?(?:{_DAY})s?)*)"
     rf"(?: (?P<part>{_PART})s?)?{_END}"
 )
-_HOURLY = re.compile(rf"(?:(?:every|each) (?P<half>half )?(?:an )?hour|hourly){_END}")
+_HOURLY = re.compile(
+    rf"(?:(?:every|each) (?:(?P<half>half )|(?P<quarter>quarter of ))?(?:an )?hour|hourly){_END}"
+)
 _EVERY_SO = re.compile(rf"every {EN_DURATION}{_END}")
 _EVERY_ONE = re.compile(
     r"(?:every|each)(?: single)? (?:(?P<minute>minute)|second(?=,|[.!]?$| (?:go|say|drive|look|come|turn)\b))"
@@ -102,8 +104,8 @@ _SOMEBODY = r"(?:somebody|someone|anybody|anyone|a person|people|a visitor|a gue
 _COMES = (
     r"(?:comes?(?: (?:in|home|inside|by|over|here|back|near|along|up))?"
     r"(?: (?:through |to |at |by |in )?the (?:front |main )?door| (?:in|into|to|inside) the (?:house|flat|apartment|home|building))?"
-    r"|enters?(?: the (?:house|home|room|flat))?|arrives?(?: home)?|shows? up|appears?|walks? in"
-    r"|walks? by|(?:is|'s) (?:here|there|(?:at|outside|in front of) the (?:front )?door)|(?:gets?|is) home)"
+    r"|enters?(?: the (?:house|home|room|flat))?|arrives?(?: home)?|(?:shows?|turns?) up|appears?|walks? in"
+    r"|walks? (?:by|past)|(?:is|'s) (?:here|there|(?:at|outside|in front of) the (?:front )?door)|(?:gets?|is) home)"
     r"(?! (?:(?:in|into|to|from|through|near|by|at|out of|over to) )?(?:the|my|our|your|a|an) )"
 )
 """With a place behind it, it is another event: "when somebody comes in the kitchen"."""
@@ -241,7 +243,10 @@ def _one_day(found: re.Match[str]) -> tuple[Part, ...]:
 PARTS: tuple[PartForm, ...] = (
     *((re.compile(rf"(?:{pattern}){_END}"), EventPart(event)) for pattern, event in _EVENTS),
     *DATES,
-    (_HOURLY, lambda found: Interval(1800.0 if found["half"] else 3600.0)),
+    (
+        _HOURLY,
+        lambda found: Interval(60.0 * (15 if found["quarter"] else 30 if found["half"] else 60)),
+    ),
     (_EVERY_SO, lambda found: interval_of(seconds(found["number"], found["unit"]))),
     (_EVERY_ONE, lambda found: Interval(60.0 if found["minute"] else 1.0)),
     (_EVERY, _every),

@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 from planner.language.semantic_parser.amounts import amount_value
-from planner.plan import Change, Edit, LastOrder, PlanRole, StepPlan, apply
-
-if TYPE_CHECKING:
-    from planner.language.semantic_parser.plan_grammar import PlanNode
+from planner.language.semantic_parser.plan_grammar import (
+    FORMS,
+    POINTED_BEFORE,
+    LabelledPlan,
+    PlanNode,
+    SlotKind,
+)
+from planner.plan import (
+    Change,
+    Edit,
+    LastOrder,
+    PlanRole,
+    StepPlan,
+    apply,
+    list_nodes,
+    places_of,
+)
 
 CHANGES = frozenset(
     {"again", "more", "less", "other", "skip", "also", "also_thing", "change_place"}
@@ -16,6 +29,26 @@ CHANGES = frozenset(
 """Forms that change the newest order."""
 _IN_ITS_PLACE = frozenset({"other", "skip", "change_place"})
 """What they make of an order that is not over is done in its place."""
+
+
+def name_pointed(plan: LabelledPlan, last: LastOrder | None) -> LabelledPlan:
+    """Return a plan whose ``there`` and ``it`` are what the newest order spoke of, where it did."""
+    if last is None:
+        return plan
+    places = [place for node in list_nodes(last.steps) for place in places_of(node.step)]
+    meant = {SlotKind.PLACE: places[-1:], SlotKind.THING: [last.thing] if last.thing else []}
+    return tuple(_name_pointed(node, meant) for node in plan)
+
+
+def _name_pointed(node: PlanNode, meant: dict[SlotKind, list[str]]) -> PlanNode:
+    kinds = [slot.kind for slot in FORMS[node.form].slots]
+    slots = tuple(
+        tuple(meant[kind]) if meant.get(kind) and value == (POINTED_BEFORE[kind],) else value
+        for kind, value in zip(kinds, node.slots, strict=True)
+    )
+    inner = (tuple(_name_pointed(each, meant) for each in block) for block in node.blocks)
+    condition = tuple(_name_pointed(each, meant) for each in node.condition)
+    return replace(node, slots=slots, condition=condition, blocks=tuple(inner))
 
 
 def change_order(node: PlanNode, last: LastOrder | None) -> StepPlan | None:

@@ -7,6 +7,7 @@ sure of is not offered.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
@@ -14,7 +15,6 @@ from pydantic import ValidationError
 from planner.language.catalogue import say
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.lexicon import lexicon_of
-from planner.language.grammar.parser import plan as grammar_plan
 from planner.language.grammar.plan_assembly import sentence
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.motion_guard import denied_places
@@ -24,7 +24,8 @@ from planner.language.order_sentence import (
     offer_order,
     write_order,
 )
-from planner.language.semantic_parser.changed_order import CHANGES, change_order
+from planner.language.recall import read_span
+from planner.language.semantic_parser.changed_order import CHANGES, change_order, name_pointed
 from planner.language.semantic_parser.parser import parse
 from planner.language.semantic_parser.plan_grammar import ALONE
 from planner.language.semantic_parser.plan_steps import StepMaker
@@ -55,7 +56,8 @@ if TYPE_CHECKING:
 SURE = 0.3
 """From here on a plan is offered; a person says no to what was not meant."""
 _BEYOND = frozenset({Code.NO_CAPABILITY})
-UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _BEYOND
+_DOUBTED = frozenset({Code.AMBIGUOUS, Code.OUT_OF_SCOPE})
+UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _BEYOND | _DOUBTED
 """What the rules say of sentences that this may read."""
 SURER = 0.6
 """From here on the reader is believed though a rule speaks against it, and what it takes for a
@@ -95,10 +97,12 @@ def offer_plan(
     if read is None:
         return None
     node, is_sure = read.plan[0], read.confidence >= SURER
+    if told.code in _DOUBTED and not is_sure:
+        return None
     has_offer = isinstance(told, Clarify) and bool(told.options)
     if node.form in _TALK:
         # What is beyond the robot keeps what the rules say of it, and the part that they offer.
-        is_told = told.code in _BEYOND or (told.code is Code.NEGATED and not has_offer)
+        is_told = told.code in _BEYOND | _DOUBTED or (told.code is Code.NEGATED and not has_offer)
         if not is_sure or is_told:
             return None
         return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
@@ -111,12 +115,12 @@ def offer_plan(
     if node.form in _ORDERS:
         if told.code is Code.NEGATED and node.form == "at" and not is_sure:
             return without_offer
-        denied = denied_places(text, vocabulary)
-        return _offer_standing_order(node, vocabulary, language, context, denied) or without_offer
+        offer = _offer_standing_order(node, text, vocabulary, language, context)
+        return offer or without_offer
     plan = _make_steps(read.plan, vocabulary, language, context.newest)
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
         return without_offer
-    if _lacks_condition(plan, told.code) or (not is_sure and _is_doubted(plan, told)):
+    if not is_sure and (_lacks_condition(plan, told.code) or _is_doubted(plan, told)):
         return None
     return _offer_steps(plan, text, vocabulary, language, at_once=is_sure)
 
@@ -147,41 +151,29 @@ def _offer_command(node: PlanNode, language: Language, code: Code) -> Clarify | 
 
 
 def _offer_standing_order(
-    node: PlanNode,
-    vocabulary: Vocabulary,
-    language: Language,
-    context: Context,
-    denied: frozenset[str],
+    node: PlanNode, text: str, vocabulary: Vocabulary, language: Language, context: Context
 ) -> Clarify | None:
-    """Return the question about a standing order whose time the clock reads; None: it doesn't."""
+    """Return the question about a standing order whose time the clock reads; None: it doesn't.
+
+    Its steps go with the button: only the time is read again.
+    """
     words = tuple(value[0] if value else "" for value in node.slots)
+    if any(re.search(rf"{re.escape(each)}[:.]?\d", text, re.IGNORECASE) for each in words if each):
+        return None  # of "at 12:10" the reader took "at 12"
     if node.form != "at":
         which, due = (*words, "", "")[:2]
         return offer_kept(node.form, which, due, chinese=language is Language.ZH)
-    order = _told_as_order(node, vocabulary, language, context, denied)
+    steps = _make_steps(node.blocks[0], vocabulary, language)
+    if steps is None or _places_of(steps) & denied_places(text, vocabulary):
+        return None
+    if check_plan(steps, vocabulary, context.runnable, context.blind) is not None:
+        return None
     try:
-        step = OrderAdd(due=words[0], order=order or "")
+        step = OrderAdd(due=words[0], order=_tell(steps, vocabulary).of(language))
     except ValidationError:
         return None
-    text = write_order(step)
-    return offer_order(text) if is_order_sentence(text, step) else None
-
-
-def _told_as_order(
-    node: PlanNode,
-    vocabulary: Vocabulary,
-    language: Language,
-    context: Context,
-    denied: frozenset[str],
-) -> str | None:
-    """Return what is to be done in words that the grammar reads as these steps; None: none do."""
-    steps = _make_steps(node.blocks[0], vocabulary, language)
-    if steps is None or _places_of(steps) & denied:
-        return None
-    told = _tell(steps, vocabulary)
-    back = grammar_plan(told.of(language), vocabulary, context)
-    is_same = isinstance(back, StepPlan) and _tell(back, vocabulary) == told
-    return told.of(language) if is_same else None
+    told = write_order(step)
+    return offer_order(told, steps) if is_order_sentence(told, step) else None
 
 
 def _lacks_condition(plan: StepPlan, code: Code) -> bool:
@@ -205,7 +197,8 @@ def _make_steps(
     if plan[0].form in CHANGES:
         return change_order(plan[0], newest)
     forms = CHINESE_COMPOUND if language is Language.ZH else ENGLISH_COMPOUND
-    return StepMaker(vocabulary, language, forms.time).plan(plan)
+    maker = StepMaker(vocabulary, language, forms.time, read_span)
+    return maker.plan(name_pointed(plan, newest))
 
 
 def _tell(plan: StepPlan, vocabulary: Vocabulary) -> Bilingual:

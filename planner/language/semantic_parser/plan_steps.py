@@ -54,7 +54,7 @@ from planner.plan import (
 )
 
 if TYPE_CHECKING:
-    from planner.plan.steps import Condition
+    from planner.plan.steps import Condition, Span
 
 _ROLES = {"after": PlanRole.AFTER, "instead": PlanRole.INSTEAD, "slowly": PlanRole.NEW}
 _TURNS = {"left": pi / 2, "right": -pi / 2, "around": pi, "full": 2 * pi}
@@ -76,11 +76,13 @@ class StepMaker:
         vocabulary: of the site.
         language: of the sentence.
         read_hour: returns the HH:MM that words mean, or None.
+        read_span: returns the time before that words mean, or None.
     """
 
     vocabulary: Vocabulary
     language: Language
     read_hour: Callable[[str], str | None]
+    read_span: Callable[[str], Span | None] = lambda _: None
 
     def plan(self, plan: LabelledPlan) -> StepPlan | None:
         """Return the plan as a mission takes it; None where it has no steps."""
@@ -235,17 +237,20 @@ def _wait_until(maker: StepMaker, slots: _Slots) -> tuple[Step, ...]:
     return (WaitFor(time=maker.read_hour(slots.need(0))),)
 
 
-def _recall(_: StepMaker, slots: _Slots) -> tuple[Step, ...]:
+def _span(maker: StepMaker, when: str | None) -> Span | None:
+    span = None if when is None else maker.read_span(when)
+    if span is None and when is not None:  # of another time the answer would be another one
+        raise _NoStep
+    return span
+
+
+def _recall(maker: StepMaker, slots: _Slots) -> tuple[Step, ...]:
     what, place, when = map(slots.text, range(3))
-    if when is not None:  # which time it is the reader of questions to memory tells
-        raise _NoStep
-    return (Recall(object=what, place=place),)
+    return (Recall(object=what, place=place, span=_span(maker, when)),)
 
 
-def _deeds(_: StepMaker, slots: _Slots) -> tuple[Step, ...]:
-    if slots.text(1) is not None:
-        raise _NoStep
-    return (Recall(place=slots.text(0), deeds=True),)
+def _deeds(maker: StepMaker, slots: _Slots) -> tuple[Step, ...]:
+    return (Recall(place=slots.text(0), span=_span(maker, slots.text(1)), deeds=True),)
 
 
 def _stand(_: StepMaker, slots: _Slots) -> tuple[Step, ...]:

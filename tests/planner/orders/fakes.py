@@ -23,7 +23,17 @@ from planner.orders.keeper import OrderKeeper
 from planner.orders.notifier import Notifier
 from planner.orders.store import OrderStore
 from planner.perception.snapshot import Sight
-from planner.plan import Code, GoalState, Language, Means, Outcome, QuietHours, say_same
+from planner.plan import (
+    Code,
+    GoalState,
+    Language,
+    Means,
+    Outcome,
+    QuietHours,
+    Step,
+    StepPlan,
+    say_same,
+)
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
 from planner.state_database import StateDatabase
@@ -101,13 +111,17 @@ class FakeMissions:
         return self.keys.get(key)
 
     async def consider(
-        self, text: str, language: Language, goal_id: str, standing: str = ""
-    ) -> Planned:
+        self, text: str, language: Language, goal_id: str, standing: str = "",
+        deed: StepPlan | None = None,
+    ) -> Planned:  # fmt: skip
         means = Means(camera=True, detector=True)
         think = thinker(OfflineBrain(), vocabulary_of(self.site), None, means)
         return await think(AskBrain(goal_id, text, language, order=text))
 
-    async def give(self, goal_id: str, text: str, language: Language, key: str, source: str) -> str:
+    async def give(
+        self, goal_id: str, text: str, language: Language, key: str, source: str,
+        steps: tuple[Step, ...] = (),
+    ) -> str:  # fmt: skip
         if self.refusal is not None:
             raise self.refusal
         if key in self.keys:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -15,7 +16,6 @@ from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import order_of_text
 from planner.orders.order import FiringState, StandingOrder, key_of
 from planner.orders.rule import next_due
-from planner.plan import Language
 from planner.state_database import StateDatabase, StateUnavailable
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, FakeMissions, Kept, MovedClocks, kept_in
 
@@ -60,9 +60,9 @@ class MortalMissions(FakeMissions):
 
     fate = Fate(MANY)
 
-    async def give(self, goal_id: str, text: str, language: Language, key: str, source: str) -> str:
+    async def give(self, *given: Any) -> str:
         self.fate.pass_moment()
-        goal = await super().give(goal_id, text, language, key, source)
+        goal = await super().give(*given)
         self.fate.pass_moment()
         return goal
 

@@ -11,12 +11,16 @@ from pathlib import Path
 import pytest
 
 from planner.brain.scripted import Reply
+from planner.language.grammar.context import Context
+from planner.language.readers import OrderWords, read_order
+from planner.language.sentence import parse
 from planner.orders.errors import OrderRefusal
 from planner.orders.factory import StandingOrders, standing_orders_of
 from planner.orders.interfaces import OrderClocks
 from planner.orders.new_order import order_of_text
 from planner.orders.order import key_of
 from planner.plan import (
+    EVERY_KIND,
     AnswerPlan,
     Bilingual,
     Clarify,
@@ -30,6 +34,7 @@ from planner.plan import (
 )
 from planner.settings import OrderSettings
 from planner.site import Site
+from planner.site.site_view import vocabulary_of
 from planner.state_database import StateDatabase
 from tests.planner.mission import live
 from tests.planner.mission.live import Together, run
@@ -116,6 +121,26 @@ def test_an_order_is_said_kept_listed_and_driven(tmp_path: Path) -> None:
             await made.together.reach(goal.id, GoalState.SUCCEEDED)
             await made.pass_s(1.0)
             assert made.together.bridge.waypoints != []
+
+    run(story())
+
+
+def test_what_the_learned_reader_offers_is_kept_by_a_yes_and_done_by_its_steps(
+    tmp_path: Path,
+) -> None:
+    async def story() -> None:
+        said = "love, would you stand in front of the sofa"
+        able = Context(runnable=frozenset(EVERY_KIND))
+        offer = read_order(OrderWords(parse(said), vocabulary_of(SITE), able)).plan
+        async with home(tmp_path, offer, by_grammar=False) as made:
+            asked = await made.say(f"{said} every day at noon", GoalState.NEEDS_CLARIFICATION)
+            await made.together.missions.answer(asked.id, "yes")
+            kept = await made.together.reach(asked.id, *ENDED)
+            assert told(kept).startswith("Every day at 12:00 I will stand before the sofa")
+            await made.pass_s(86_401.0)
+            [goal] = made.fired()
+            assert goal.plan is not None
+            assert [step.kind for step in goal.plan.steps] == ["stand_at"]
 
     run(story())
 
