@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import sqlite3
 import subprocess
 import sys
-import time
 from contextlib import ExitStack, closing
 from pathlib import Path
 
 import pytest
 
 from planner.state_database import FILE, StateDatabase, StateUnavailable
+from tests.killed_writers import kill_writers
 from wire import ConfigError
 
 ROW = "INSERT INTO imports VALUES (?, ?)"
@@ -195,48 +193,23 @@ def test_what_is_taken_over_is_taken_once_whenever_the_process_dies(
 
 # Kills -------------------------------------------------------------------------------------------
 
-CHILD = """
-import os, sys
-from pathlib import Path
+WRITE = """
 from planner.state_database import StateDatabase
 
 def write(home):
     database = StateDatabase(home)
-    print(os.getpid(), flush=True)
     number = 0
     while True:
         number += 1
         with database.change(sync=number % 3 == 0) as connection:
             for name in "ab":
                 connection.execute("REPLACE INTO imports VALUES (?, ?)", (name, str(number)))
-        print(number, flush=True)
-
-for home in sys.argv[1:]:
-    pid = os.fork()
-    if not pid:
-        write(Path(home))
-    os.waitpid(pid, 0)
-    print("over", flush=True)
+        yield number
 """
 
 
 def test_kill_at_any_instant_keeps_whole_changes(tmp_path: Path, repository: Path) -> None:
-    """Kill three writers, one after another: each is forked by a process that has all loaded."""
-    delays_s = {tmp_path / "a": 0.0, tmp_path / "b": 0.013, tmp_path / "c": 0.037}
-    with subprocess.Popen(
-        [sys.executable, "-c", CHILD, *map(str, delays_s)], stdout=subprocess.PIPE, cwd=repository
-    ) as child:
-        assert child.stdout is not None
-        for home, delay_s in delays_s.items():
-            writer = int(child.stdout.readline())
-            last = [int(child.stdout.readline()) for _ in range(5)][-1]
-            time.sleep(delay_s)  # the phase of the kill within a write, not a wait for anything
-            os.kill(writer, signal.SIGKILL)
-            while not (line := child.stdout.readline()).endswith(b"over\n"):
-                last = int(
-                    line
-                )  # a word that the kill cut short stands before "over", and counts not
-            found = dict(kept(home))
-            assert found["a"] == found["b"], "both rows of one change, or neither"
-            assert int(found["a"]) >= last, "what was reported kept is there"
-    assert child.returncode == 0
+    for home, last in kill_writers(WRITE, tmp_path, repository):
+        found = dict(kept(home))
+        assert found["a"] == found["b"], "both rows of one change, or neither"
+        assert int(found["a"]) >= last, "what was reported kept is there"

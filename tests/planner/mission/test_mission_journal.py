@@ -4,13 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import json
-import os
 import resource
-import signal
-import subprocess
-import sys
 import threading
-import time
 from pathlib import Path
 from typing import cast
 
@@ -37,6 +32,7 @@ from planner.mission.journal_sync import JournalWriter, PendingEntry
 from planner.mission.skills.skill_state import FindState
 from planner.mission.state import MAX_ENDED, GoalKey, Mission
 from planner.plan import Code, GoalState, Language, Outcome, StepState
+from tests.killed_writers import kill_writers
 from tests.planner.mission.former_records import FIND, YOUNGER
 from wire import ConfigError, Unwritable
 
@@ -358,9 +354,7 @@ def test_a_disk_that_refuses_is_tried_again_and_nothing_is_called_safe(tmp_path:
     lock.engine.dispose()
 
 
-CHILD = """
-import os, sys
-from pathlib import Path
+WRITE = """
 from planner.mission.effects import Journal
 from planner.mission.journal import MissionJournal
 from tests.planner.mission.test_mission_journal import mission
@@ -368,39 +362,18 @@ from planner.plan import GoalState
 
 def write(home):
     journal = MissionJournal.in_home(home)
-    print(os.getpid(), flush=True)
     number = 0
     while True:
         number += 1
         pair = (mission("a", 1, GoalState.RUNNING, number), mission("b", 2, step=number))
         journal.write((Journal(number, pair, ("b",)),))
-        print(number, flush=True)
-
-for home in sys.argv[1:]:
-    pid = os.fork()
-    if not pid:
-        write(Path(home))
-    os.waitpid(pid, 0)
-    print("over", flush=True)
+        yield number
 """
 
 
 def test_kill_at_any_instant_keeps_whole_entries(tmp_path: Path, repository: Path) -> None:
-    """Kill three writers, one after another: each is forked by a process that has all loaded."""
-    delays_s = {tmp_path / "a": 0.0, tmp_path / "b": 0.013, tmp_path / "c": 0.037}
-    with subprocess.Popen(
-        [sys.executable, "-c", CHILD, *map(str, delays_s)], stdout=subprocess.PIPE, cwd=repository
-    ) as child:
-        assert child.stdout is not None
-        for home, delay_s in delays_s.items():
-            writer = int(child.stdout.readline())
-            last = [int(child.stdout.readline()) for _ in range(5)][-1]
-            time.sleep(delay_s)  # the phase of the kill within a write, not a wait for anything
-            os.kill(writer, signal.SIGKILL)
-            while (line := child.stdout.readline()) != b"over\n":
-                last = int(line)
-            check_whole(home, last)
-    assert child.returncode == 0
+    for home, last in kill_writers(WRITE, tmp_path, repository):
+        check_whole(home, last)
 
 
 def check_whole(home: Path, last: int) -> None:

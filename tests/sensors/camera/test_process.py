@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
@@ -23,12 +22,7 @@ from wire.keys import Party
 from wire.session import open_session
 
 LIMIT_S = 30.0
-
-
-def written(folder: Path, text: str) -> Path:
-    path = folder / "robot.toml"
-    path.write_text(f"[camera]\n{text}\n")
-    return path
+SENSOR = "camera"
 
 
 class Eyes:
@@ -60,22 +54,6 @@ def eyes(tmp_path: Path) -> Iterator[Eyes]:
     found = Eyes(tmp_path)
     yield found
     found.session.close()
-
-
-@pytest.fixture
-def started(tmp_path: Path) -> Iterator[Callable[[str], subprocess.Popen[str]]]:
-    processes: list[subprocess.Popen[str]] = []
-
-    def start(text: str) -> subprocess.Popen[str]:
-        words = ["--robot", str(written(tmp_path, text)), "--home", str(tmp_path)]
-        command = [sys.executable, "-m", "sensors.camera", *words]
-        processes.append(subprocess.Popen(command, stderr=subprocess.PIPE, text=True))
-        return processes[-1]
-
-    yield start
-    for process in processes:
-        process.kill()
-        process.communicate(timeout=LIMIT_S)
 
 
 @pytest.mark.e2e
@@ -170,8 +148,12 @@ def test_a_camera_of_ros_2_is_shown_comes_late_and_goes(
     ],
 )
 def test_what_waiting_will_not_mend_refuses_the_start(
-    tmp_path: Path, text: str, code: str, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path,
+    write_robot: Callable[[str], Path],
+    text: str,
+    code: str,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    words = ["--robot", str(written(tmp_path, text)), "--home", str(tmp_path)]
+    words = ["--robot", str(write_robot(text)), "--home", str(tmp_path)]
     assert main(words) == 2
     assert code in capsys.readouterr().err

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -22,12 +21,7 @@ from wire.lidar_config import LidarConfig
 from wire.session import open_session
 
 LIMIT_S = 20.0
-
-
-def written(folder: Path, text: str) -> Path:
-    path = folder / "robot.toml"
-    path.write_text(f"[lidar]\n{text}\n")
-    return path
+SENSOR = "lidar"
 
 
 def room(directions_rad: NDArray[np.float64]) -> tuple[float | None, ...]:
@@ -86,22 +80,6 @@ def ears(tmp_path: Path) -> Iterator[Ears]:
     found = Ears(tmp_path)
     yield found
     found.session.close()
-
-
-@pytest.fixture
-def started(tmp_path: Path) -> Iterator[Callable[[str], subprocess.Popen[str]]]:
-    processes: list[subprocess.Popen[str]] = []
-
-    def start(text: str) -> subprocess.Popen[str]:
-        words = ["--robot", str(written(tmp_path, text)), "--home", str(tmp_path)]
-        command = [sys.executable, "-m", "sensors.lidar", *words]
-        processes.append(subprocess.Popen(command, stderr=subprocess.PIPE, text=True))
-        return processes[-1]
-
-    yield start
-    for process in processes:
-        process.kill()
-        process.communicate(timeout=LIMIT_S)
 
 
 @pytest.mark.e2e
@@ -166,7 +144,11 @@ def test_a_wrong_baud_is_told_and_mends(
     ],
 )
 def test_a_wrong_file_refuses_the_start_and_says_why(
-    text: str, code: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    text: str,
+    code: str,
+    tmp_path: Path,
+    write_robot: Callable[[str], Path],
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
-    assert main(["--robot", str(written(tmp_path, text)), "--home", str(tmp_path)]) == 2
+    assert main(["--robot", str(write_robot(text)), "--home", str(tmp_path)]) == 2
     assert code in capsys.readouterr().err

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.motion.motion_gates import contact_gate, touched_input
-from bridge.core.state_motion import Gate
-from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import FakeDrive
-from tests.bridge.core.reached import reached, tick_of
-from tests.bridge.core.scripted import ROBOT, World
+from tests.bridge.core.motion.test_motion_gates import driving
+from tests.bridge.core.reached import reached
+from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
-from wire import STILL, DriveState, Mode, Pose2, Twist2
+from wire import STILL, DriveState, Mode, Twist2
 
 speeds = st.floats(-2.0, 2.0)
 
@@ -89,25 +85,6 @@ def test_a_hand_on_the_stick_may_back_away_slowly() -> None:
         world.teleop(0.4, 0.0, held=True)
         world.tick()
     assert world.sent.v_mps <= 1e-9
-
-
-def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: bool) -> TickContext:
-    """Return a tick with a scan that shows the same distance all around, taken here and now."""
-    tick = tick_of(reached(start))
-    scan = tick.s.lidar.newest
-    assert scan is not None
-    scan = scan.model_copy(
-        update={"ranges_m": (ranges_m,) * len(scan.ranges_m), "stamp_s": tick.now_s}
-    )
-    picture = ScanPicture.from_scan(scan, tick.s.odometry.base_in_odom, ROBOT.lidar)
-    tick.s.lidar = replace(tick.s.lidar, newest=scan, picture=picture, received_s=tick.now_s)
-    state = tick.s.drive.newest
-    assert state is not None
-    tick.s.drive.newest = state.model_copy(update=drive)
-    tick.robot_in_map = Pose2(0.0, 0.0, 0.0)
-    tick.s.motion.bound_by, tick.s.motion.free_m, tick.room_m = "robot", 9.0, 9.0
-    tick.s.gate = Gate(shut_since_s=1.0)
-    return tick
 
 
 @table(
