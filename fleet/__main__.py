@@ -9,16 +9,22 @@ import logging
 import os
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import httpx
 from sqlalchemy.exc import SQLAlchemyError
 
 from fleet.errors import FleetError, tell
-from fleet.house_commands import add_commands
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    Act = Callable[[argparse.Namespace, Path], int]
 
 EXIT_DONE, EXIT_USAGE, EXIT_REFUSED, EXIT_DOWN = 0, 2, 3, 6
 DEFAULT_PORT = 8440
+TUPLES, MAPS = frozenset({"rooms"}), frozenset({"homes"})
+"""Rules of the house that are lists of words, and words by name."""
 
 
 class ServiceProblem(Exception):
@@ -89,8 +95,50 @@ def _parser() -> argparse.ArgumentParser:
     cancel.add_argument("mission")
     cancel.add_argument("--give-up", action="store_true", help="end one whose robot is silent")
     cancel.set_defaults(act=_cancel)
-    add_commands(acts, _ask, _pick, _print_mission)
+    _add_house_commands(acts)
     return parser
+
+
+def _add_house_commands(acts: Any) -> None:
+    """Add house | every | orders | resume | pause | to."""
+
+    def add(name: str, act: Act, about: str, *words: str) -> argparse.ArgumentParser:
+        made: argparse.ArgumentParser = acts.add_parser(name, help=about)
+        made.set_defaults(act=act)
+        for word in words:
+            made.add_argument(word)
+        return made
+
+    def house(given: argparse.Namespace, _: Path) -> int:
+        changes = dict(_read_rule(each) for each in given.rules)
+        told = _ask("PATCH", "/v1/house", changes) if changes else _ask("GET", "/v1/house")
+        for name, value in told.items():
+            print(f"{name:<14} {json.dumps(value, ensure_ascii=False)}")
+        return EXIT_DONE
+
+    def every(given: argparse.Namespace, _: Path) -> int:
+        body = {"text": given.text, "when": given.when, "timezone": given.timezone}
+        _print_order(_ask("POST", "/v1/orders", body))
+        return EXIT_DONE
+
+    def on_mission(name: str) -> Act:
+        def act(given: argparse.Namespace, _: Path) -> int:
+            body = {"to": given.robot} if name == "to" else {}
+            _print_mission(_ask("POST", f"/v1/missions/{given.mission}/{name}", body))
+            return EXIT_DONE
+
+        return act
+
+    about = "show the rules of the house, or set some: quiet=22:00-07:00 rooms=kitchen,bath money="
+    add("house", house, about).add_argument("rules", nargs="*", metavar="NAME=VALUE")
+    about = 'keep an order: every 19:00 "somebody check the door"; or by cron: every "0 19 * * 1-5"'
+    add("every", every, about, "when", "text").add_argument("--timezone", help="else the house's")
+    listed = add("orders", _on_orders, "list the standing orders of the house")
+    listed.add_argument("--remove", metavar="ID")
+    listed.add_argument("--skip", nargs=2, metavar=("ID", "DAY"), help="leave 2026-12-24 out")
+    add("resume", on_mission("resume"), "go on with a mission that its robot paused", "mission")
+    add("pause", on_mission("pause"), "keep a mission's place at its robot, standing", "mission")
+    add("to", on_mission("to"), "give an order that waits to another robot", "mission", "robot")
 
 
 def _serve(given: argparse.Namespace, home: Path) -> int:
@@ -177,6 +225,38 @@ def _cancel(given: argparse.Namespace, _: Path) -> int:
     body = {"give_up": given.give_up}
     _print_mission(_ask("POST", f"/v1/missions/{given.mission}/cancel", body))
     return EXIT_DONE
+
+
+def _on_orders(given: argparse.Namespace, _: Path) -> int:
+    if given.remove:
+        _print_order(_ask("DELETE", f"/v1/orders/{given.remove}", {}))
+    elif given.skip:
+        order_id, day = given.skip
+        _print_order(_ask("POST", f"/v1/orders/{order_id}/skip", {"day": day}))
+    else:
+        for order in _ask("GET", "/v1/orders")["orders"]:
+            _print_order(order)
+    return EXIT_DONE
+
+
+def _read_rule(given: str) -> tuple[str, Any]:
+    """Return a rule's name and value: words apart by commas, numbers, true, false; empty: none."""
+    name, _, text = given.partition("=")
+    if name in TUPLES:
+        return name, [each for each in text.split(",") if each]
+    if name in MAPS:
+        return name, dict(each.split(":", 1) for each in text.split(",") if ":" in each)
+    try:
+        return name, json.loads(text) if text else None
+    except ValueError:
+        return name, text
+
+
+def _print_order(order: dict[str, Any]) -> None:
+    print(f"{order['id']} {order['cron']:<14} {order['next'] or '-':<22} {order['text']}")
+    for told in (order["warning"], (order["last"] or {}).get("message")):
+        if told:
+            print(f"    {_pick(told)}")
 
 
 def _ask(

@@ -18,7 +18,7 @@ from fleet.choice import place_names
 from fleet.errors import FleetError
 from fleet.link import RobotAway, RobotBusy, RobotRefusal
 from fleet.records import CHARGE
-from fleet.watch import SOURCE
+from fleet.watch import SOURCE, battery_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -49,12 +49,6 @@ def dock_of(card: Mapping[str, Any]) -> Mapping[str, Any] | None:
     return next((place for name, place in place_names(card) if name in DOCKS), None)
 
 
-def battery_of(watch: RobotWatch) -> object:
-    """Return a battery's charge from 0 to 1 as its robot told last; None: it has no gauge."""
-    status: Mapping[str, Any] = watch.told.get("status") or {}
-    return (status.get("drive") or {}).get("battery")
-
-
 async def look_after_batteries(desk: ChargeDesk) -> None:
     """Note who is low, and send who is free, for ever."""
     while True:
@@ -76,7 +70,7 @@ async def note_batteries(desk: ChargeDesk, rules: HouseRules) -> dict[str, float
     has_changed = False
     for name, watch in list(desk.watches.items()):
         was = name in lows
-        low = rules.is_low(was, battery_of(watch)) if watch.is_ready else was
+        low = rules.is_low(was, battery_of(watch.told)) if watch.is_ready else was
         if low != was:
             has_changed = True
             await asyncio.to_thread(desk.store.note_low, name, low=low)

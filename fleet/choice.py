@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Collection, Iterator, Mapping, Sequence
 
     from fleet.house import HouseRules
     from fleet.records import MissionRow
@@ -75,6 +75,8 @@ class Abilities:
     cards: Mapping[str, Mapping[str, Any]]
     _names: dict[str, frozenset[str]] = field(init=False)
     _known: tuple[str, ...] = field(init=False)
+    _able: dict[str, frozenset[str]] = field(init=False, default_factory=dict)
+    """Of each order that was judged: thousands may wait, and each is judged in every round."""
 
     def __post_init__(self) -> None:
         """Gather all names that any robot knows."""
@@ -89,6 +91,16 @@ class Abilities:
 
         What no robot of the fleet has is left to the robot to tell.
         """
+        if mission.id not in self._able:
+            self._able[mission.id] = self._judge(mission)
+        return [robot for robot in robots if robot in self._able[mission.id]]
+
+    def forget_but(self, missions: Collection[str]) -> None:
+        """Let go of orders that wait no more."""
+        if len(self._able) > 2 * len(missions) + 100:
+            self._able = {each: self._able[each] for each in missions if each in self._able}
+
+    def _judge(self, mission: MissionRow) -> frozenset[str]:
         text, body = mission.text.casefold(), json.loads(mission.body)
         wanted = frozenset(name for name in self._known if is_named(name, text))
         language, steps = str(body.get("language")), steps_of(mission)
@@ -107,7 +119,7 @@ class Abilities:
                 and all(step.get("place") in {None, *ids} for step in steps)
             )
 
-        return [robot for robot in robots if is_able(robot)]
+        return frozenset(robot for robot in self.cards if is_able(robot))
 
     def homes(
         self, mission: MissionRow, robots: Sequence[str], rules: HouseRules

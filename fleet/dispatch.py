@@ -9,8 +9,9 @@ import asyncio
 import json
 import logging
 import time
+from collections import Counter
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from sqlalchemy.exc import SQLAlchemyError
 
@@ -30,6 +31,8 @@ log = logging.getLogger(__name__)
 DISPATCH_S = 2.0
 FRESH_S = 20.0
 """A look ahead counts for so long: robots that are free stand still."""
+ROUND_S_AN_ORDER, JUDGED_AT_ONCE = 1e-4, 50
+"""Orders between two turns of all else that this process does."""
 MOST_LOOKS = 100
 """Orders that are looked at ahead in one round; the next round goes on behind them."""
 
@@ -43,8 +46,12 @@ class Dispatcher:
         self._store, self._watches, self._rows = store, watches, rows
         self.work = asyncio.Event()
         self.rules = HouseRules()
+        self._abilities = Abilities({})
         self._why: dict[str, str] = {}
         self._instead: dict[str, list[str]] = {}
+        self._next_why: dict[str, str] = {}
+        self._next_instead: dict[str, list[str]] = {}
+        """Of the round that is being made: till its end people are told the former one's."""
         self._ahead: dict[tuple[str, str], tuple[float, Prospect]] = {}
         self._looks = 0
 
@@ -55,9 +62,11 @@ class Dispatcher:
                 await asyncio.wait_for(self.work.wait(), DISPATCH_S)
             self.work.clear()
             try:
-                await self._give_robots()
+                count = await self._give_robots()
             except SQLAlchemyError as error:
                 log.warning("store_unavailable: %s", error)
+            else:  # where thousands wait, others get as much of the processor as a round takes
+                await asyncio.sleep(ROUND_S_AN_ORDER * count)
 
     def waits_for(self, mission: MissionRow) -> str | None:
         """Return what a waiting mission waits for, by code."""
@@ -70,19 +79,24 @@ class Dispatcher:
         """Return the robots that are free and could take what waits for others."""
         return self._instead.get(mission.id, []) if mission.state == WAITING else []
 
-    async def _give_robots(self) -> None:
-        self._rows.update({row.name: row for row in await asyncio.to_thread(self._store.robots)})
-        self.rules = await asyncio.to_thread(self._store.rules)
-        lows = await asyncio.to_thread(self._store.lows)
-        held = await asyncio.to_thread(self._store.missions_at_robots)
-        taken = await asyncio.to_thread(self._store.rooms_held)
+    async def _give_robots(self) -> int:
+        """Make one round, and return how many orders were waiting."""
         waiting = await asyncio.to_thread(self._store.waiting)
-        choice = _Round(self._rows, self._watches, self.rules, set(held), set(lows), taken)
+        self._next_why, self._next_instead, self._looks = {}, {}, 0
+        if waiting:
+            await self._choose(waiting)
+        self._why, self._instead = self._next_why, self._next_instead
+        return len(waiting)
+
+    async def _choose(self, waiting: list[MissionRow]) -> None:
+        choice = await self._look_round()
+        self._abilities.forget_but([mission.id for mission in waiting])
         oldest_s = time.monotonic() - FRESH_S
         self._ahead = {pair: seen for pair, seen in self._ahead.items() if seen[0] > oldest_s}
-        self._why, self._instead, self._looks = {}, {}, 0
         batch: list[tuple[MissionRow, dict[str, Prospect]]] = []
-        for mission in waiting:
+        for number, mission in enumerate(waiting):
+            if number % JUDGED_AT_ONCE == JUDGED_AT_ONCE - 1:
+                await asyncio.sleep(0)
             may = await self._judge(mission, choice)
             if mission.is_urgent:
                 turns = sorted(may, key=lambda name: (name not in choice.free, self._turn(name)))
@@ -94,6 +108,21 @@ class Dispatcher:
             if ways := await self._look_ahead(mission, may, choice):
                 batch.append((mission, ways))
         await self._assign(batch, choice, waiting)
+
+    async def _look_round(self) -> _Round:
+        """Read how robots and house stand now."""
+        store = self._store
+
+        def read() -> tuple[list[RobotRow], HouseRules, set[str], set[str], set[str]]:
+            held, lows = store.missions_at_robots(), store.lows()
+            return store.robots(), store.rules(), set(held), set(lows), store.rooms_held()
+
+        rows, self.rules, held, lows, taken = await asyncio.to_thread(read)
+        self._rows.update({row.name: row for row in rows})
+        cards = {name: row.capabilities for name, row in self._rows.items()}
+        if self._abilities.cards != cards:
+            self._abilities = Abilities(cards)
+        return _Round(self._abilities, self._watches, self.rules, held, lows, taken)
 
     async def _judge(self, mission: MissionRow, choice: _Round) -> list[str]:
         """Return the free robots that may take a mission; where none may, why is kept or told."""
@@ -122,7 +151,7 @@ class Dispatcher:
         free = [name for name in ready if name in choice.free]
         if not free and ready:
             others = [name for name in choice.free if name not in choice.lows]
-            self._instead[mission.id] = choice.abilities.able(mission, others)
+            self._next_instead[mission.id] = choice.abilities.able(mission, others)
         return free or self._wait(mission, "robots_busy" if ready else "nobody_answers")
 
     async def _look_ahead(
@@ -159,8 +188,8 @@ class Dispatcher:
         waiting: list[MissionRow],
     ) -> None:
         """Claim robots for the oldest orders so that the sum of their ways is least."""
-        named = [json.loads(each.names) for each in waiting]
-        load = {robot: sum(who == [robot] for who in named) for robot in choice.free}
+        named = Counter(each.names for each in waiting)
+        load = {robot: named[json.dumps([robot])] for robot in choice.free}
         turns = sorted(choice.free, key=self._turn)
         robots = [name for name in turns if any(name in ways for _, ways in batch)]
 
@@ -171,7 +200,7 @@ class Dispatcher:
             return float(way_m + LOAD_M * load[robot] + 1e-3 * turns.index(robot))
 
         costs = [[cost(each, ways, robot) for robot in robots] for each, ways in batch]
-        pairs = assign(costs)
+        pairs = await asyncio.to_thread(assign, costs)  # the first time it loads a large library
         for row, at in pairs:
             mission, ways = batch[row]
             wanted = choice.rooms_wanted(robots[at], ways[robots[at]])
@@ -196,7 +225,7 @@ class Dispatcher:
         return []
 
     def _wait(self, mission: MissionRow, reason: str) -> list[str]:
-        self._why[mission.id] = reason
+        self._next_why[mission.id] = reason
         return []
 
     async def _ask_home(self, mission: MissionRow, homes: dict[str, list[str]]) -> list[str]:
@@ -226,15 +255,15 @@ class _Round:
 
     def __init__(
         self,
-        rows: dict[str, RobotRow],
+        abilities: Abilities,
         watches: dict[str, RobotWatch],
         rules: HouseRules,
         held: set[str],
         lows: set[str],
         taken: set[str],
     ) -> None:
-        cards: dict[str, Any] = {name: row.capabilities for name, row in rows.items()}
-        self.abilities, self.rules, self.lows, self._taken = Abilities(cards), rules, lows, taken
+        self.abilities, self.rules, self.lows, self._taken = abilities, rules, lows, taken
+        cards = abilities.cards
         self.free = [name for name, watch in watches.items()
                      if watch.is_ready and name not in held and name in cards]  # fmt: skip
         self.is_spent = rules.is_spent((each.usage for each in watches.values()), time.time())

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import httpx
 
-from fleet.answers import check_answer
-from fleet.card import read_card
+from fleet.answers import check_answer, read_card
 from fleet.errors import FleetError
 
 if TYPE_CHECKING:
@@ -22,7 +21,9 @@ if TYPE_CHECKING:
 TIMEOUT = httpx.Timeout(5.0, connect=2.0)
 WHOLE_S = 10.0
 """For one answer to its last byte: httpx bounds each read alone, were it of one byte."""
-MAX_ANSWER_BYTES = 4_000_000
+MAX_ANSWER_BYTES = {"/v1/map": 4_000_000}
+MAX_OTHER_BYTES = 1_000_000
+"""A planner's longest list has 0.9 MB; to read more of many robots would take others' turns."""
 TRY_AGAIN = frozenset({408, 429, 500, 502, 503, 504})
 TOKEN_REFUSED = frozenset({401, 403})
 _BY_THE_CLOCK = frozenset({9, 10})
@@ -127,14 +128,13 @@ class FleetLink:
                 wrong = FleetError("certificate_dates" if dates else "pin_mismatch", name=self.name)
                 raise RobotRefusal(409, wrong.code, str(error), wrong.message) from None
             raise RobotAway(f"{self.url}: {str(error) or type(error).__name__}") from None
-        content = self._judge(status, raw)
+        content = self._judge(status, raw, MAX_ANSWER_BYTES.get(path, MAX_OTHER_BYTES))
         try:
-            check_answer(method, path, content)
+            return check_answer(method, path, content)
         except ValueError as wrong:
             raise RobotAway(
                 f"{self.url}: {method} {path} is answered by nonsense: {wrong}"
             ) from None
-        return content
 
     async def _fetch(
         self, method: str, path: str, query: Mapping[str, Any], body: Mapping[str, Any] | None,
@@ -148,7 +148,7 @@ class FleetLink:
         async with asked as answer:
             async for piece in answer.aiter_raw():  # unpacked here, a small one could be huge
                 raw += piece
-                if len(raw) > MAX_ANSWER_BYTES:
+                if len(raw) > MAX_ANSWER_BYTES.get(path, MAX_OTHER_BYTES):
                     break
         return answer.status_code, bytes(raw)
 
@@ -160,9 +160,9 @@ class FleetLink:
             )  # fmt: skip
         return self._client
 
-    def _judge(self, status: int, raw: bytes) -> Any:
+    def _judge(self, status: int, raw: bytes, most: int) -> Any:
         try:
-            if len(raw) > MAX_ANSWER_BYTES:
+            if len(raw) > most:
                 raise ValueError("too long")
             content = json.loads(raw)
         except (ValueError, RecursionError):

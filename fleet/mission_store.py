@@ -64,7 +64,7 @@ class MissionStore(HouseStore):
 
     def changed_since(self, cursor: int, limit: int) -> tuple[list[MissionRow], int]:
         """Return missions that changed after a cursor, the change of longest ago first."""
-        with self.engine.begin() as connection:
+        with self.reading() as connection:
             newest = connection.execute(sa.select(counter.c.value)).scalar_one()
             wanted = sa.select(missions).where(missions.c.change > cursor)
             wanted = wanted.order_by(missions.c.change, missions.c.seq)
@@ -77,23 +77,23 @@ class MissionStore(HouseStore):
         """Return missions, those that are open first, then the newest."""
         open_first = sa.case((missions.c.state.in_(list(ENDED)), 1), else_=0)
         wanted = sa.select(missions).order_by(open_first, missions.c.seq.desc()).limit(limit)
-        with self.engine.begin() as connection:
+        with self.reading() as connection:
             return [mission_row(row) for row in connection.execute(wanted).mappings()]
 
     def missions_at_robots(self) -> dict[str, str]:
         """Return which mission each busy robot has."""
-        with self.engine.begin() as connection:
+        with self.reading() as connection:
             return {row.robot: row.mission for row in connection.execute(sa.select(holds))}
 
     def change_waiting(self, mission_id: str, **values: Any) -> bool:
         """Write fields of a mission that waits for a robot; return whether it does."""
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             waits = (missions.c.id == mission_id) & (missions.c.state == WAITING)
             return self.change_where(connection, waits, values)
 
     def change(self, mission_id: str, **values: Any) -> bool:
         """Write fields of a mission that has not ended; return whether it has not."""
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             is_open = (missions.c.id == mission_id) & missions.c.state.not_in(list(ENDED))
             return self.change_where(connection, is_open, values)
 
@@ -101,7 +101,7 @@ class MissionStore(HouseStore):
         self, mission_id: str, state: str, reason: str | None = None, **values: Any
     ) -> MissionRow:
         """End a mission and let its robot go; a second time it changes nothing."""
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             is_open = (missions.c.id == mission_id) & missions.c.state.not_in(list(ENDED))
             self.change_where(connection, is_open, {**values, "state": state, "reason": reason})
             connection.execute(holds.delete().where(holds.c.mission == mission_id))
@@ -116,7 +116,7 @@ class MissionStore(HouseStore):
             FleetError: ``unknown_mission`` or ``mission_ended``.
         """
         row = self.mission(mission_id)
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             mine = missions.c.id == mission_id
             ended = {"state": CANCELLED, "reason": "cancelled_first"}
             if self.change_where(connection, mine & (missions.c.state == WAITING), ended):
@@ -133,7 +133,7 @@ class MissionStore(HouseStore):
     ) -> list[str]:
         """Take up goals as their robot tells them, and its cursor; return the missions' ids."""
         touched = []
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             for goal in goals:
                 mine = (missions.c.robot == robot) & (missions.c.goal_id == goal["id"])
                 for mission in select_missions(connection, mine):
@@ -150,7 +150,7 @@ class MissionStore(HouseStore):
 
     def bind(self, mission_id: str, goal: Mapping[str, Any]) -> None:
         """Write down that a robot's journal has a mission, as this goal."""
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             mission = select_missions(connection, missions.c.id == mission_id)[0]
             values = {"goal_id": goal["id"], **values_of_goal(mission, goal)}
             self.change_where(connection, missions.c.id == mission_id, values)
@@ -158,14 +158,14 @@ class MissionStore(HouseStore):
     def mark_lost(self, mission_id: str) -> None:
         """Call a mission unknown whose goal the robot's journal has no more."""
         values = {"state": UNKNOWN, "reason": "goal_lost", "unknown_since_unix_s": self._wall()}
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             is_new = (missions.c.id == mission_id) & missions.c.state.in_(_AT_WORK)
             is_new &= missions.c.reason.is_distinct_from("goal_lost")
             self.change_where(connection, is_new, values)
 
     def mark_silent(self, robot: str, since_unix_s: float) -> list[str]:
         """Call all that a silent robot may be doing unknown; what was never sent is not."""
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             there = (missions.c.robot == robot) & missions.c.state.in_(_AT_WORK)
             there &= missions.c.is_sent & (missions.c.state != UNKNOWN)
             found = [mission.id for mission in select_missions(connection, there)]
@@ -176,7 +176,7 @@ class MissionStore(HouseStore):
 
     def mark_heard(self, robot: str) -> None:
         """Take unknown back: the robot answers, and its journal is asked next."""
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             there = (missions.c.robot == robot) & (missions.c.state == UNKNOWN)
             there &= missions.c.reason.is_distinct_from("goal_lost")
             bound = missions.c.goal_id.is_not(None)
@@ -187,7 +187,7 @@ class MissionStore(HouseStore):
 
     def clear_wish(self, mission_id: str) -> None:
         """Note that a robot has heard that a mission is to end."""
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             mine = missions.c.id == mission_id
             self.change_where(connection, mine, {"wish": None})
             if select_missions(connection, mine & missions.c.state.in_(list(ENDED))):
@@ -196,12 +196,12 @@ class MissionStore(HouseStore):
     def is_barred(self, mission: MissionRow) -> bool:
         """Return whether its robot was stopped after a mission was ordered."""
         wanted = sa.select(robots.c.stopped_seq).where(robots.c.name == mission.robot)
-        with self.engine.begin() as connection:
+        with self.reading() as connection:
             stopped = connection.execute(wanted).scalar()
         return stopped is not None and mission.seq <= stopped
 
     def _find(self, condition: sa.ColumnElement[bool]) -> list[MissionRow]:
-        with self.engine.begin() as connection:
+        with self.reading() as connection:
             return select_missions(connection, condition)
 
     def change_where(

@@ -37,11 +37,6 @@ class Pin:
             return ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         return _trusting(self.pem, is_leaf=self.kind == "leaf")
 
-    @property
-    def fingerprint(self) -> str:
-        """Return the SHA-256 as ``pons tls`` shows it."""
-        return ":".join(self.sha256[at : at + 2] for at in range(0, 64, 2)).upper()
-
 
 def clean_url(given: str) -> str:
     """Return a robot's address without a path.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from fleet.watch import RobotWatch
 
 REHEARSAL_S = 4.0
+AGAIN_S = 30.0
+"""A robot that answered none in time is not asked meanwhile: all orders wait while one is."""
 STANDS = frozenset({"say", "wait", "ask", "recall"})
 """Kinds of steps at which a robot stands still."""
 Point = tuple[float, float]
@@ -40,28 +43,26 @@ async def look_ahead(mission: MissionRow, watch: RobotWatch, card: Mapping[str, 
     if steps and {step.get("kind") for step in steps} <= STANDS:
         return Prospect(0.0, moves=False, rooms=frozenset())
     told: Mapping[str, Any] = {}
-    if mission.text:
+    if mission.text and time.monotonic() > watch.rehearses_again_s:
         try:
             async with asyncio.timeout(REHEARSAL_S):
                 told = await watch.link.post("/v1/rehearsals", {"text": mission.text[:4000]})
             return _of_rehearsal(told, card)
-        except (RobotAway, RobotBusy, RobotRefusal, TimeoutError):
-            pass
-        except (KeyError, TypeError, ValueError, AttributeError):  # another version's words
+        except (RobotAway, TimeoutError):
+            watch.rehearses_again_s = time.monotonic() + AGAIN_S
+        except (RobotBusy, RobotRefusal):
             pass
     return Prospect(_straight_m(mission.text, watch, card), moves=True, rooms=None)
 
 
 def _of_rehearsal(told: Mapping[str, Any], card: Mapping[str, Any]) -> Prospect:
     steps: Sequence[Mapping[str, Any]] = told["steps"]
-    does = {str(step["does"]) for step in steps}
-    points = [(float(x), float(y)) for step in steps for x, y in step.get("points") or ()]
-    named = {str(step["place"]) for step in steps if step.get("place")}
-    length_m = float(told["length_m"])
-    if not 0.0 <= length_m < math.inf:
-        raise ValueError("no length")
+    does = {step["does"] for step in steps}
+    points = [(x_m, y_m) for step in steps for x_m, y_m in step.get("points") or ()]
+    named = {step["place"] for step in steps if step.get("place")}
+    length_m = told.get("length_m")
     return Prospect(
-        length_m=math.inf if "shut" in does else length_m,
+        length_m=math.inf if "shut" in does or length_m is None else length_m,
         moves=not does <= {"stands"},
         rooms=None if does & {"open", "shut"} else frozenset(_rooms_of(points, named, card)),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict, dataclass, fields
 from datetime import UTC, datetime
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from fleet.errors import WORDS, tell
@@ -47,9 +48,14 @@ class RobotRow:
 
     @property
     def capabilities(self) -> dict[str, Any]:
-        """Return the card as the robot gave it."""
-        read: dict[str, Any] = json.loads(self.card)
-        return read
+        """Return the card as the robot gave it; all that ask are given the same object."""
+        return _read_card(self.card)
+
+
+@lru_cache(maxsize=1024)
+def _read_card(text: str) -> dict[str, Any]:
+    read: dict[str, Any] = json.loads(text)
+    return read
 
 
 @dataclass(frozen=True, slots=True)

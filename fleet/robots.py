@@ -7,7 +7,7 @@ import os
 from typing import TYPE_CHECKING
 
 from fleet.addressee import is_free_name
-from fleet.card import read_card
+from fleet.answers import read_card
 from fleet.errors import FleetError
 from fleet.link import TOKEN_REFUSED, FleetLink, RobotAway, RobotBusy, RobotRefusal
 from fleet.pin import Pin, clean_url, take_pin
@@ -16,7 +16,7 @@ from fleet.records import RobotRow
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from fleet.robot_store import RobotStore
+    from fleet.house_store import HouseStore
 
 ROLE = "dispatcher"
 
@@ -30,7 +30,7 @@ def link_of(robot: RobotRow, home: Path) -> FleetLink:
 
 
 async def add_robot(
-    store: RobotStore,
+    store: HouseStore,
     home: Path,
     url: str,
     token: str,

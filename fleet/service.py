@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import sys
 from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -59,6 +60,8 @@ def serve(
     Raises:
         ConfigError: the address is open to others without TLS or a token, or it runs already.
     """  # fmt: skip
+    # Else httpcore 1 seeks it on the disk with each request, a fifth of the loop's time.
+    sys.modules.setdefault("sniffio", None)  # type: ignore[arg-type]
     folder = own_home(home)
     token = environment.get("PONS_FLEET_TOKEN", "")
     if not is_loopback(host) and not (token and certificate and key):

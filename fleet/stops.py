@@ -14,7 +14,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from fleet.addressee import is_stop, read_addressee, to_names
 from fleet.link import RobotAway, RobotBusy, RobotRefusal
-from fleet.watch import SOURCE, STOP_S
+from fleet.watch import STOP_S
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -58,47 +58,42 @@ class Stops:
             noting = asyncio.to_thread(self._store.stop, stop_id, asked, forever=is_all)
             ended = await asyncio.wait_for(noting, NOTE_S)
         except (SQLAlchemyError, TimeoutError):  # a stop waits for no disk
-            return await self._stop_unwritten(stop_id, asked, forever=is_all)
-        acts = {name: asyncio.create_task(self._ring(name)) for name in asked}
-        if acts:
-            await asyncio.wait(acts.values(), timeout=STOP_S)
-        heard = {name: act.result() for name, act in acts.items() if act.done() and act.result()}
-        self._wake([*ended, *self._running])
+            self._store.owe_stop(stop_id, asked, forever=is_all)  # it bars what is offered next
+            heard = await self._ring_all(asked)
+            self._store.owe_stop(stop_id, asked, forever=is_all, heard=heard)
+            return tell_stop(stop_id, heard, [name for name in asked if name not in heard])
+        heard = await self._ring_all(asked)
         try:
-            await asyncio.to_thread(self._store.confirm_stops, heard)
+            await asyncio.to_thread(self._store.confirm_stops, {name: [stop_id] for name in heard})
             told = await asyncio.to_thread(self._store.stop_state, stop_id)
         except SQLAlchemyError:  # its row is there, so that it is repeated and then confirmed
-            told = list(heard), [name for name in asked if name not in heard]
-        for name in told[1]:
-            self._watches[name].nudge()  # it is repeated there until confirmed
-        return _tell_stop(stop_id, *told)
+            told = heard, [name for name in asked if name not in heard]
+        self._wake([*ended, *self._running])
+        for name in asked:
+            self._watches[name].nudge()  # repeated until confirmed; then it may get orders again
+        return tell_stop(stop_id, *told)
 
     async def state(self, stop_id: str) -> dict[str, Any]:
         """Tell who has confirmed a stop by now."""
-        return _tell_stop(stop_id, *await asyncio.to_thread(self._store.stop_state, stop_id))
+        return tell_stop(stop_id, *await asyncio.to_thread(self._store.stop_state, stop_id))
 
-    async def _ring(self, name: str) -> list[str]:
+    async def _ring_all(self, names: Sequence[str]) -> list[str]:
+        """Stop robots all at once, and return who has heard in time; one that is slow may yet."""
+        acts = {name: asyncio.create_task(self._ring(name)) for name in names}
+        if acts:
+            await asyncio.wait(acts.values(), timeout=STOP_S)
+        return [name for name, act in acts.items() if act.done() and act.result()]
+
+    async def _ring(self, name: str) -> bool:
         try:
-            return await self._watches[name].ring_stops()
-        except (RobotAway, RobotBusy, RobotRefusal, SQLAlchemyError) as trouble:
+            await self._watches[name].ring_stop()
+        except (RobotAway, RobotBusy, RobotRefusal) as trouble:
             log.warning("stop of %s: %s", name, trouble)
-            return []
-
-    async def _stop_unwritten(
-        self, stop_id: str, names: Sequence[str], *, forever: bool
-    ) -> dict[str, Any]:
-        """Stop by the wires alone, where the database is away; its row is owed."""
-        acts = {}
-        for name in names:
-            self._watches[name].is_ready = False  # nothing is offered before the row is there
-            acts[name] = self._watches[name].link.post("/v1/stop", {"source": SOURCE})
-        done = await asyncio.gather(*acts.values(), return_exceptions=True)
-        heard = [name for name, answer in zip(acts, done, strict=True) if isinstance(answer, dict)]
-        self._store.owe_stop(stop_id, names, forever=forever, heard=heard)
-        return _tell_stop(stop_id, heard, [name for name in names if name not in heard])
+            return False
+        return True
 
 
-def _tell_stop(stop_id: str, confirmed: list[str], missing: list[str]) -> dict[str, Any]:
+def tell_stop(stop_id: str, confirmed: list[str], missing: list[str]) -> dict[str, Any]:
     """Say who has confirmed a stop: "7 of 8 confirmed, r4 not reached"."""
     count, names = f"{len(confirmed)} of {len(confirmed) + len(missing)}", ", ".join(missing)
     english = f"{count} confirmed" + (f", {names} not reached" if missing else "")

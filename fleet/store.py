@@ -14,12 +14,7 @@ import sqlalchemy as sa
 
 from fleet.errors import FleetError
 from fleet.mission_store import MissionStore, select_missions
-from fleet.records import (
-    CANCELLED,
-    OFFERED,
-    WAITING,
-    MissionRow,
-)
+from fleet.records import CANCELLED, OFFERED, WAITING, MissionRow
 from fleet.tables import holds, missions, orders, robots, rooms, stops
 
 if TYPE_CHECKING:
@@ -61,7 +56,7 @@ class FleetStore(MissionStore):
         Raises:
             FleetError: ``idempotency_conflict`` or ``queue_full``.
         """
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             if key is not None and (former := self._order_of(connection, key, body_hash)):
                 return former
             count = connection.execute(
@@ -99,7 +94,7 @@ class FleetStore(MissionStore):
 
         None: it waits no more, or the robot is busy, or one of the rooms is held by another.
         """
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
             self.raise_counter(connection)  # one writer at a time from here on
             is_held = sa.select(holds.c.mission).where(holds.c.robot == robot)
             if not mission.is_urgent and connection.execute(is_held).first() is not None:
@@ -133,7 +128,8 @@ class FleetStore(MissionStore):
             forever: whether these are all: what waits for anyone then ends too.
             heard: who has confirmed it already.
         """
-        with self.engine.begin() as connection:
+        with self.writing() as connection:
+            self.raise_counter(connection)  # before robots' rows, as all others do: no deadlock
             if connection.execute(sa.select(stops).where(stops.c.id == stop_id)).first():
                 here = (stops.c.id == stop_id) & stops.c.robot.in_(list(heard))
                 connection.execute(stops.update().where(here).values(confirmed_unix_s=self._wall()))
@@ -159,11 +155,11 @@ class FleetStore(MissionStore):
         """Keep a stop that the database did not take; it is noted before anything is offered."""
         self._owed.append((stop, more))
 
-    def unconfirmed_stops(self, robot: str) -> list[str]:
-        """Return the stops that a robot has not confirmed, those of a database away included."""
+    def unconfirmed_stops(self) -> dict[str, list[str]]:
+        """Return the stops that robots have not confirmed, those of a database away included."""
         while self._owed:
             stop, more = self._owed[0]
             self.stop(*stop, **more)
             with suppress(ValueError):  # another thread was as quick
                 self._owed.remove((stop, more))
-        return super().unconfirmed_stops(robot)
+        return super().unconfirmed_stops()

@@ -11,6 +11,7 @@ import logging
 import random
 import time
 from contextlib import suppress
+from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
 from sqlalchemy.exc import SQLAlchemyError
@@ -18,7 +19,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from fleet.link import FleetLink, RobotAway, RobotBusy, RobotRefusal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from fleet.records import MissionRow, RobotRow
     from fleet.store import FleetStore
@@ -62,6 +63,8 @@ class RobotWatch:
         self.usage: dict[str, Any] = {}
         """What its model has spent today; empty: not told yet."""
         self.heard_unix_s: float | None = None
+        self.rehearses_again_s = float("-inf")
+        """It is asked for no rehearsal before that."""
         self._began_s = time.monotonic()
         self._heard_s: float | None = None
         self._looked_s = self._metered_s = self._reconciled_s = float("-inf")
@@ -116,16 +119,14 @@ class RobotWatch:
                 await asyncio.wait_for(self._nudged.wait(), spread_s)
             self._nudged.clear()
 
-    async def ring_stops(self) -> list[str]:
-        """Tell the robot of all stops that it has not confirmed; return those it has heard now.
+    async def ring_stop(self) -> None:
+        """Stop the robot. It needs no proof of who answers: a stop harms nobody.
 
-        It needs no proof of who answers: a stop harms nobody. Raises as ``FleetLink.ask``.
+        Nothing is offered until the next round has seen that all stops are confirmed. Raises as
+        ``FleetLink.ask``.
         """
-        ids = await asyncio.to_thread(self._store.unconfirmed_stops, self.name)
-        if ids:
-            self.is_ready = False
-            await self.link.post("/v1/stop", {"source": SOURCE})
-        return ids
+        self.is_ready = False
+        await self.link.post("/v1/stop", {"source": SOURCE})
 
     async def reconcile(self, mission: MissionRow) -> None:
         """Ask for a mission's goal by its id. Raises as ``FleetLink.ask``."""
@@ -169,8 +170,10 @@ class RobotWatch:
 
     async def _round(self) -> bool:
         """Do all that is due at the robot; return whether its journal has changed."""
-        if rung := await self.ring_stops():
-            await asyncio.to_thread(self._store.confirm_stops, {self.name: rung})
+        unconfirmed = await asyncio.to_thread(self._store.unconfirmed_stops)
+        if ids := unconfirmed.get(self.name):
+            await self.ring_stop()
+            await asyncio.to_thread(self._store.confirm_stops, {self.name: ids})
         if not self.link.is_proven:
             card = await self.link.prove()
             card["skills"] = (await self._ask_of_old("/v1/skills")).get("skills", [])
@@ -230,7 +233,9 @@ class RobotWatch:
             self.told = await self.link.get("/v1/robot")
             self._looked_s = time.monotonic()
         if time.monotonic() - self._metered_s > METER_S:
-            self.usage = await self._ask_of_old("/v1/usage")
+            told = await self._ask_of_old("/v1/usage")
+            # The day is this service's: a robot whose clock is off would hide what it spends.
+            self.usage = {**told, "day": f"{datetime.now(UTC):%Y-%m-%d}"} if told else {}
             self._metered_s = time.monotonic()
 
     async def _ask_of_old(self, path: str) -> dict[str, Any]:
@@ -267,8 +272,7 @@ def mission_body(mission: MissionRow) -> dict[str, Any]:
 
 def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> dict[str, Any]:
     """Return a robot as the API shows it."""
-    card, status = robot.capabilities, watch.told.get("status")
-    status = status if isinstance(status, dict) else {}
+    card, status = robot.capabilities, watch.told.get("status") or {}
     return {
         "name": robot.name, "robot_id": robot.robot_id, "url": robot.url,
         "state": watch.state,
@@ -276,6 +280,13 @@ def show_robot(robot: RobotRow, watch: RobotWatch, mission_id: str | None) -> di
         "mode": status.get("mode"), "base_in_map": status.get("base_in_map"),
         "room": watch.told.get("room"), "map_id": card.get("map_id"), "site": card.get("site"),
         "release": card.get("release"), "camera": card.get("camera"),
-        "battery": (status.get("drive") or {}).get("battery"),
+        "battery": battery_of(watch.told),
         "pin": {"kind": robot.pin_kind, "sha256": robot.pin_sha256},
     }  # fmt: skip
+
+
+def battery_of(told: Mapping[str, Any]) -> float | None:
+    """Return a battery's charge from 0 to 1 as its robot told last; None: it has no gauge."""
+    status: Mapping[str, Any] = told.get("status") or {}
+    charge: float | None = (status.get("drive") or {}).get("battery")
+    return charge

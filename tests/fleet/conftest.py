@@ -121,7 +121,7 @@ class RunningFleet:
 
     def start(self, *settings: str) -> None:
         """Start it, with constants set to others: ``fleet.watch.SILENT_S = 1.0``."""
-        lines = ["import fleet.page_maps, fleet.watch, fleet.workflow, fleet.__main__", *settings]
+        lines = ["import fleet.page_api, fleet.watch, fleet.workflow, fleet.__main__", *settings]
         code = "\n".join([*lines, "fleet.__main__.main(['up'])"])
         self.process = subprocess.Popen(
             [sys.executable, "-c", code], cwd=ROOT, env=self.environment
@@ -212,6 +212,15 @@ def fleet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningFleet]:
     yield running
     running.kill()
     running.client.close()
+
+
+@pytest.fixture
+def file_fleet(tmp_path: Path) -> Iterator[RunningFleet]:
+    """Return a fleet of its own on a file, not yet started."""
+    made = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
+    yield made
+    made.kill()
+    made.client.close()
 
 
 @pytest.fixture(params=["sqlite", "postgres"])

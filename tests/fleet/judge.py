@@ -25,6 +25,9 @@ class Verdict:
     """Not ended."""
 
 
+CLEAN = Verdict((), (), ())
+
+
 def judge(accepted: list[str], journals: list[Path], database: str) -> Verdict:
     """Return what became of the missions with these ids."""
     begun: Counter[str] = Counter()

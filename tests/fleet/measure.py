@@ -1,7 +1,9 @@
 """Measure the service beside 30 robots' doors: ``python -m tests.fleet.measure [--orders 10000]``.
 
-Prints its share of a core and memory at rest, how long it takes to accept orders at 5 a second, and
-what a flood does to both. The doors are real servers in one process of their own. Run it alone.
+Prints its share of a core and memory at rest, how long it takes to accept orders at 5 a second and
+until a robot's journal has them, to stop all, and what a flood does. With ``--evil slow`` the last
+robot is hostile, as the stub knows how: the other 29 are measured. The doors are real servers in
+one process of their own, so that what thirty planners cost is not measured. Run it alone.
 """
 
 from __future__ import annotations
@@ -9,6 +11,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import os
+import sqlite3
 import statistics
 import subprocess
 import sys
@@ -16,6 +19,7 @@ import tempfile
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import httpx
@@ -28,7 +32,7 @@ from tests.fleet.conftest import ROOT, RunningFleet, until
 from tests.fleet.robot_stub import make_server
 
 ROBOTS = 30
-REST_S, STEADY_S = 30.0, 40.0
+REST_S, STEADY_S, STOPS = 30.0, 40.0, 20
 STEADY_HZ = 5.0
 
 
@@ -67,24 +71,56 @@ def give(fleet: RunningFleet, text: str) -> tuple[float, int]:
     return time.monotonic() - began_s, status
 
 
-def report(fleet: RunningFleet, orders: int) -> None:
+def written_at(folder: Path) -> dict[str, float]:
+    """Return when each mission was first in a robot's journal [unix s]."""
+    found: dict[str, float] = {}
+    for file in folder.glob("*.journal"):
+        with closing(sqlite3.connect(file)) as disk:
+            found |= dict(disk.execute("SELECT key, at_unix_s FROM keys").fetchall())
+    return found
+
+
+def measure_stops(fleet: RunningFleet, service: psutil.Process) -> str:
+    """Stop all some times; the processor's time includes half a second of rest each."""
+    taken_s, missed, before_s = [], 0, sum(service.cpu_times()[:2])
+    for _ in range(STOPS):
+        began_s = time.monotonic()
+        missed += len(fleet.client.post("/v1/stop").json()["not_reached"])
+        taken_s.append(time.monotonic() - began_s)
+        time.sleep(0.5)
+    each_ms = 1e3 * (sum(service.cpu_times()[:2]) - before_s) / STOPS
+    return (
+        f"{describe(taken_s)}  n {STOPS}, {missed} not reached, {each_ms:.0f} ms of processor each"
+    )
+
+
+def report(fleet: RunningFleet, folder: Path, orders: int) -> None:
     """Measure and print."""
     assert fleet.process is not None
     service = psutil.Process(fleet.process.pid)
-    until(lambda: list(fleet.states().values()).count("ready") == ROBOTS)
+    until(lambda: list(fleet.states().values()).count("ready") >= ROBOTS - 1, 600.0)
     time.sleep(5.0)
     rest = share_of_core(service, REST_S)
     print(f"at rest, {ROBOTS} robots: {100 * rest:.1f} % of a core, {megabytes(service):.0f} MB")
     steady: list[float] = []
+    told_unix_s: dict[str, float] = {}
     busy = sum(service.cpu_times()[:2])
     for number in range(int(STEADY_S * STEADY_HZ)):
-        taken_s, status = give(fleet, f"somebody go to the hall {number}")
-        assert status == 202, status
-        steady.append(taken_s)
+        began_s = time.monotonic()
+        (mission,) = fleet.give(f"r{1 + number % (ROBOTS - 1)}: go to the hall {number}")
+        told_unix_s[mission["id"]] = time.time()
+        steady.append(taken_s := time.monotonic() - began_s)
         time.sleep(max(0.0, 1.0 / STEADY_HZ - taken_s))
     busy = (sum(service.cpu_times()[:2]) - busy) / STEADY_S
     print(f"accepted at {STEADY_HZ:g}/s: {describe(steady)}  n {len(steady)}, {100 * busy:.1f} %"
           f" of a core, {megabytes(service):.0f} MB")  # fmt: skip
+    time.sleep(5.0)
+    late_s = [at - told_unix_s[key] for key, at in written_at(folder).items() if key in told_unix_s]
+    print(f"accept to the robot's journal: {describe([max(0.0, s) for s in late_s])}"
+          f"  n {len(late_s)} of {len(told_unix_s)}")  # fmt: skip
+    print(f"stop all: {measure_stops(fleet, service)}")
+    if not orders:
+        return
     began_s = time.monotonic()
     with ThreadPoolExecutor(16) as many:
         flood = list(many.map(lambda number: give(fleet, f"r1: go to the hall {number}"),
@@ -104,6 +140,7 @@ def main() -> None:
     """Run the doors, the service and the measurement in a folder of its own."""
     parser = argparse.ArgumentParser(prog="python -m tests.fleet.measure", description=__doc__)
     parser.add_argument("--orders", type=int, default=10_000, help="in the flood")
+    parser.add_argument("--evil", help="how the last robot is hostile: slow, endless, never, …")
     parser.add_argument("--doors", type=Path, help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.doors is not None:
@@ -118,9 +155,11 @@ def main() -> None:
         fleet.client.timeout = httpx.Timeout(120.0)
         try:
             assert doors.stdout is not None
-            add_all(fleet, doors.stdout.readline().split())
+            add_all(fleet, ports := doors.stdout.readline().split())
             fleet.start()
-            report(fleet, given.orders)
+            if given.evil is not None:
+                httpx.post(f"http://127.0.0.1:{int(ports[-1])}/stub", json={"evil": given.evil})
+            report(fleet, folder, given.orders)
         finally:
             fleet.kill()
             doors.kill()

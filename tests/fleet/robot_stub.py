@@ -35,7 +35,7 @@ MAPS: dict[str, Any] = {
     "endless": {},
 }  # fmt: skip
 SCHEMA = """
-CREATE TABLE IF NOT EXISTS keys (key TEXT PRIMARY KEY, body TEXT, goal TEXT);
+CREATE TABLE IF NOT EXISTS keys (key TEXT PRIMARY KEY, body TEXT, goal TEXT, at_unix_s REAL);
 CREATE TABLE IF NOT EXISTS goals (id TEXT PRIMARY KEY, text TEXT, state TEXT, record TEXT);
 CREATE TABLE IF NOT EXISTS changes (seq INTEGER PRIMARY KEY AUTOINCREMENT, goal TEXT, state TEXT);
 CREATE TABLE IF NOT EXISTS acts
@@ -55,7 +55,7 @@ class Journal:
             "camera": None, "site": "home", "map_id": MAP, "languages": ["en", "zh"],
             "room": "cellar", "battery": None, "orders": [], "does": "drives", "through": [],
             "model": None, "money": 0.0, "proof": False,
-            "evil": None,
+            "evil": None, "clock_s": 0.0,
             "map": "whole", "question": "Which door?", "status": {},
         }  # fmt: skip
         self.disk = sqlite3.connect(
@@ -82,11 +82,14 @@ class Journal:
         is_of_other_map = not maps <= {self.rules["map_id"]}
         state = "refused" if is_of_other_map else "queued"
         text = body.get("text") or json.dumps(body.get("steps") or body.get("points"))
+        now = time.time() + self.rules["clock_s"]
         record = {"id": goal_id, "text": text, "state": state, "reason": None, "plan": None,
+                  "created_unix_s": now, "updated_unix_s": now,
                   "outcome": outcome(state) if state in ENDED else None}  # fmt: skip
         self.disk.execute("BEGIN IMMEDIATE")
         if key is not None:
-            self.disk.execute("INSERT INTO keys VALUES (?,?,?)", (key, print_of_it, goal_id))
+            self.disk.execute("INSERT INTO keys VALUES (?,?,?,?)",
+                              (key, print_of_it, goal_id, time.time()))  # fmt: skip
         self.disk.execute(
             "INSERT INTO goals VALUES (?,?,?,?)", (goal_id, text, state, json.dumps(record))
         )
@@ -208,6 +211,8 @@ class Door(BaseHTTPRequestHandler):
     def _answer_evil(self, how: str, path: str, content: dict[str, Any]) -> None:
         """Answer as a robot that was taken over, or as what is no robot at all."""
         changes, never = path == "/v1/goals" and "goals" in content, {"x": [float("nan")]}
+        if how == "never":
+            time.sleep(600.0)
         if how in ("endless", "slow"):
             self.send_response(200)
             self.send_header("transfer-encoding", "chunked")
@@ -280,8 +285,9 @@ class Door(BaseHTTPRequestHandler):
                 return 200, {"orders": rules["orders"]}
             case ["v1", "usage"]:
                 today = {"calls": 1, "money": rules["money"]}
+                now = time.time() + rules["clock_s"]
                 return 200, {"model": rules["model"], "currency": "USD", "today": today,
-                             "day": time.strftime("%Y-%m-%d", time.gmtime())}  # fmt: skip
+                             "day": time.strftime("%Y-%m-%d", time.gmtime(now))}  # fmt: skip
             case ["v1", "people"]:
                 return 200, {"you": {"id": "fleet", "role": rules["role"]}}
             case ["v1", "robot"]:

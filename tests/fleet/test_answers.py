@@ -47,7 +47,14 @@ GOAL: dict[str, Any] = {"id": "g1", "state": "running", "plan": None, "outcome":
         ("GET", "/v1/usage", {"today": {"money": -100.0}}),
         ("GET", "/v1/usage", {"today": {"money": float("nan")}}),
         ("GET", "/v1/skills", {"skills": [{"name": 3}]}),
+        ("GET", "/v1/robot", {"status": {"drive": {"battery": 85}}}),
+        ("GET", "/v1/robot", {"status": {"base_in_map": {"x_m": 0.0, "y_m": 0.0}}}),
+        ("GET", "/v1/robot", {"status": {"base_in_map": {"x_m": 0, "y_m": 0, "yaw_rad": 1e9}}}),
+        ("POST", "/v1/rehearsals", []),
         ("POST", "/v1/rehearsals", {"steps": [1], "length_m": 1.0}),
+        ("POST", "/v1/rehearsals", {"steps": [{}], "length_m": 1.0}),
+        ("POST", "/v1/rehearsals", {"steps": [{"does": "drives", "points": ["?"]}]}),
+        ("POST", "/v1/rehearsals", {"steps": [{"does": "drives", "points": [[1.0]]}]}),
         ("POST", "/v1/rehearsals", {"steps": [], "length_m": -5.0}),
         ("POST", "/v1/rehearsals", {"steps": [], "length_m": float("nan")}),
     ],
@@ -55,6 +62,12 @@ GOAL: dict[str, Any] = {"id": "g1", "state": "running", "plan": None, "outcome":
 def test_nonsense_is_no_answer(method: str, path: str, content: Any) -> None:
     with pytest.raises(ValueError, match=": "):
         check_answer(method, path, content)
+
+
+def test_of_a_robots_state_the_fields_that_are_read_are_all_there() -> None:
+    told = check_answer("GET", "/v1/robot", {"status": {"mode": "ACTIVE", "x": 1}, "more": "x"})
+    status = {"mode": "ACTIVE", "base_in_map": None, "drive": None}
+    assert told == {"status": status, "room": None, "map_id": None}
 
 
 def test_a_true_planners_answers_pass(tmp_path: Path) -> None:

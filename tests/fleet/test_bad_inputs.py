@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import resource
+import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -10,14 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from fleet.card import read_card
+from fleet.answers import read_card
 from fleet.errors import FleetError
 from tests.fleet.conftest import RunningFleet, until
-from tests.fleet.judge import judge
+from tests.fleet.judge import CLEAN, judge
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
     from tests.fleet.conftest import StubRobot
 
@@ -26,15 +26,6 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 
 OTHER_MAP = "ffeeddccbbaa9988"
-
-
-@pytest.fixture
-def file_fleet(tmp_path: Path) -> Iterator[RunningFleet]:
-    """Return a fleet of its own on a file, not yet started."""
-    made = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
-    yield made
-    made.kill()
-    made.client.close()
 
 
 @pytest.mark.parametrize(
@@ -123,8 +114,30 @@ def test_a_clock_that_leaps_by_a_day_changes_neither_order_nor_outcome(
     for mission_id in given:
         fleet.await_state(mission_id, "succeeded")
     assert [text for text, _ in robot.goals()] == [f"go to the hall {n}" for n in range(4)]
-    verdict = judge(given, [robot.journal], fleet.database)
-    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+    assert judge(given, [robot.journal], fleet.database) == CLEAN
+
+
+@pytest.mark.parametrize("off_s", [-86_400.0, 86_400.0])
+def test_a_robots_clock_a_day_off_moves_no_time_here_and_hides_no_spending(
+    file_fleet: RunningFleet, make_robot: MakeRobot, off_s: float
+) -> None:
+    fleet, robot = file_fleet, make_robot("r1")
+    robot.rule(clock_s=off_s, work_s=600.0, model="some", money=2.5)
+    fleet.add(robot)
+    fleet.start("fleet.watch.SILENT_S = 1.0")
+    fleet.await_ready(robot)
+    began_unix_s = time.time()
+    (mission,) = fleet.give("go to the hall")
+    fleet.await_state(mission["id"], "at_robot")
+    assert fleet.client.get("/v1/house").json()["spent_today"]["money"] == 2.5
+    robot.kill()
+    silent = fleet.await_state(mission["id"], "unknown")
+    times = [silent[f"{name}_unix_s"] for name in ("created", "unknown_since", "updated")]
+    assert [began_unix_s, *times, time.time()] == sorted([began_unix_s, *times, time.time()])
+    robot.start()
+    robot.rule(clock_s=off_s)
+    fleet.await_state(mission["id"], "succeeded")
+    assert judge([mission["id"]], [robot.journal], fleet.database) == CLEAN
 
 
 def test_more_orders_at_once_than_may_wait_are_refused_with_a_code_and_the_others_kept(
@@ -187,5 +200,4 @@ def test_a_full_disk_refuses_orders_stops_robots_and_loses_nothing(
     (after,) = fleet.give("r2: go to the hall")
     fleet.await_state(after["id"], "succeeded")
     ids, journals = [begun["id"], after["id"]], [robot.journal for robot in robots]
-    verdict = judge(ids, journals, fleet.database)
-    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+    assert judge(ids, journals, fleet.database) == CLEAN

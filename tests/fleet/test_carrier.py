@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import signal
+import time
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 import httpx
 import pytest
+import sqlalchemy as sa
 
 from fleet.carrier import CarrierLock
 from fleet.store import FleetStore
+from fleet.tables import robots
 from tests.fleet.conftest import RunningFleet, until
-from tests.fleet.judge import judge
+from tests.fleet.judge import CLEAN, judge
 from tests.fleet.postgres import running_cluster
+from tests.fleet.test_store import R1, give
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -58,6 +63,27 @@ def start(pair: Pair, *settings: str) -> Pair:
     return pair
 
 
+def test_a_stop_waits_for_who_writes_and_holds_no_robots_row_meanwhile(postgres: Cluster) -> None:
+    """Else Postgres ends one of the two as a deadlock, after the second that a stop has."""
+    store = FleetStore(postgres.make_database())
+    store.keep_robot(R1, again=False)
+    waiting = give(store, 1)
+
+    def count_waiting() -> int:
+        asked = "SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
+        with store.reading() as looking:
+            return int(looking.execute(sa.text(asked)).scalar_one())
+
+    with ThreadPoolExecutor(1) as other:
+        with store.writing() as telling:  # as apply_goals does: its number, then the robot's row
+            store.raise_counter(telling)
+            stopping = other.submit(store.stop, "s-1", ["r1"], forever=True)
+            until(count_waiting)
+            telling.execute(robots.update().values(cursor=1))
+        assert stopping.result(30.0) == [waiting.id]
+    store.close()
+
+
 def test_one_lock_has_one_holder_and_a_file_is_held_by_whoever_opens_it(
     postgres: Cluster, tmp_path: Path
 ) -> None:
@@ -98,8 +124,7 @@ def test_either_falls_in_mid_mission_and_the_other_goes_on(
     assert not carries(fallen)
     for mission_id in accepted:
         assert fallen.await_state(mission_id, "succeeded")
-    verdict = judge(accepted, [robot.journal for robot in robots], left.database)
-    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+    assert judge(accepted, [robot.journal for robot in robots], left.database) == CLEAN
 
 
 def test_who_stands_by_stops_cancels_and_answers_for_people(
@@ -150,8 +175,7 @@ def test_a_carrier_that_froze_stands_by_when_it_wakes(
     until(lambda: stands_by(carrier))
     robot.rule(work_s=0.0)
     carrier.await_state(mission["id"], "succeeded")
-    verdict = judge([mission["id"]], [robot.journal], carrier.database)
-    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+    assert judge([mission["id"]], [robot.journal], carrier.database) == CLEAN
 
 
 def test_postgres_away_refuses_orders_with_a_code_stops_robots_and_goes_on_when_it_is_back(
@@ -182,8 +206,36 @@ def test_postgres_away_refuses_orders_with_a_code_stops_robots_and_goes_on_when_
             (after,) = fleet.give("go to the kitchen")
             fleet.await_state(after["id"], "succeeded")
             ids = [mission["id"], after["id"]]
-            verdict = judge(ids, [robot.journal], fleet.database)
-            assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+            assert judge(ids, [robot.journal], fleet.database) == CLEAN
+        finally:
+            fleet.kill()
+            fleet.client.close()
+
+
+def test_an_outage_of_postgres_longer_than_a_minute_ends_as_a_short_one(
+    tmp_path: Path, make_robot: Callable[[str], StubRobot]
+) -> None:
+    """A goal ends meanwhile, another is cut in its offer; the engine's longest pause is 90 s."""
+    robots = [make_robot("r1"), make_robot("r2")]
+    with running_cluster() as cluster:
+        fleet = RunningFleet(tmp_path / "home", cluster.make_database())
+        try:
+            fleet.add(*robots)
+            fleet.start()
+            robots[0].rule(work_s=600.0)
+            fleet.await_ready(*robots)
+            given = [fleet.give("r1: go to the hall")[0]["id"]]
+            fleet.await_state(given[0], "at_robot")
+            given += [fleet.give("r2: go to the hall")[0]["id"]]
+            cluster.stop()
+            robots[0].rule(work_s=0.0)
+            time.sleep(65.0)
+            refused = fleet.client.post("/v1/missions", json={"text": "go to the hall"})
+            assert (refused.status_code, refused.json()["code"]) == (503, "store_unavailable")
+            cluster.start()
+            until(lambda: {fleet.mission(each)["state"] for each in given} == {"succeeded"}, 200.0)
+            assert carries(fleet)
+            assert judge(given, [robot.journal for robot in robots], fleet.database) == CLEAN
         finally:
             fleet.kill()
             fleet.client.close()

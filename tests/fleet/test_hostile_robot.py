@@ -8,31 +8,22 @@ from typing import TYPE_CHECKING
 import psutil
 import pytest
 
-from tests.fleet.conftest import RunningFleet
-from tests.fleet.judge import judge
+from tests.fleet.judge import CLEAN, judge
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
+    from collections.abc import Callable
 
-    from tests.fleet.conftest import StubRobot
+    from tests.fleet.conftest import RunningFleet, StubRobot
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
-EVIL = ("html", "endless", "slow", "cursor", "pages", "goals", "status", "another")
+EVIL = ("html", "endless", "slow", "never", "cursor", "pages", "goals", "status", "another")
 GROWS_MB = 60.0
 
 
-@pytest.fixture
-def fleet(tmp_path: Path) -> Iterator[RunningFleet]:
-    running = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
-    yield running
-    running.kill()
-    running.client.close()
-
-
 def test_hostile_robots_harm_no_other(
-    fleet: RunningFleet, make_robot: Callable[[str], StubRobot]
+    file_fleet: RunningFleet, make_robot: Callable[[str], StubRobot]
 ) -> None:
+    fleet = file_fleet
     honest = [make_robot(f"honest{number}") for number in range(2)]
     evil = [make_robot(how) for how in EVIL]
     fleet.add(*honest, *evil)
@@ -61,5 +52,4 @@ def test_hostile_robots_harm_no_other(
         fleet.client.post("/v1/stop", json={"robots": ["honest0", "honest1"]}).json()["not_reached"]
         == []
     )
-    verdict = judge(accepted, [robot.journal for robot in honest], fleet.database)
-    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+    assert judge(accepted, [robot.journal for robot in honest], fleet.database) == CLEAN

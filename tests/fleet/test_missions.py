@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from tests.fleet.conftest import until
-from tests.fleet.judge import judge
+from tests.fleet.judge import CLEAN, judge
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -38,8 +38,7 @@ def test_the_nearest_goes_or_each_and_a_repeated_key_makes_nothing_new(
     robots = {fleet.await_state(mission["id"], "succeeded")["robot"] for mission in each}
     assert robots == {"near", "far"}
     accepted = [mission["id"] for mission in (nearest, named, *each)]
-    verdict = judge(accepted, [near.journal, far.journal], fleet.database)
-    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+    assert judge(accepted, [near.journal, far.journal], fleet.database) == CLEAN
 
 
 def test_the_second_mission_of_a_robot_waits_for_the_first(
@@ -184,8 +183,7 @@ def test_a_service_killed_in_mid_offer_loses_nothing_and_does_nothing_twice(
         fleet.start()
     for mission_id in accepted:
         fleet.await_state(mission_id, "succeeded")
-    verdict = judge(accepted, [robot.journal for robot in robots], fleet.database)
-    assert (verdict.lost, verdict.twice, verdict.stateless) == ((), (), ())
+    assert judge(accepted, [robot.journal for robot in robots], fleet.database) == CLEAN
 
 
 def test_a_stop_is_told_by_number_and_repeated_until_it_is_confirmed(

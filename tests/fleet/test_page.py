@@ -49,7 +49,7 @@ def house(tmp_path: Path) -> Iterator[RunningFleet]:
     tokens = {"PONS_FLEET_TOKEN": OPERATOR, "PONS_FLEET_VIEWER_TOKEN": VIEWER}
     running.environment |= tokens
     running.client.headers["authorization"] = f"Bearer {OPERATOR}"
-    running.start("fleet.watch.SILENT_S = 1.0", "fleet.page_maps.AGAIN_S = 0.5")
+    running.start("fleet.watch.SILENT_S = 1.0", "fleet.page_api.AGAIN_S = 0.5")
     yield running
     running.kill()
     running.client.close()

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from fleet.link import RobotRefusal
+from fleet.link import RobotAway, RobotRefusal
 from fleet.prospect import Prospect, is_inside, look_ahead
 from tests.fleet.robot_stub import OUTLINES
 from tests.fleet.test_store import kept_mission
@@ -20,16 +20,21 @@ CARD = {"places": [{"id": name, "polygon": outline} for name, outline in OUTLINE
 
 @dataclass
 class Rehearsing:
-    """Answer as a robot's link, with one rehearsal; None refuses."""
+    """Answer as a robot's link, with one rehearsal; None refuses, an error is raised."""
 
     answer: Any
     told: dict[str, Any] = field(default_factory=dict)
+    rehearses_again_s: float = -math.inf
+    asked: int = 0
 
     @property
     def link(self) -> Rehearsing:
         return self
 
     async def post(self, _: str, __: Any) -> Any:
+        self.asked += 1
+        if isinstance(self.answer, Exception):
+            raise self.answer
         if self.answer is None:
             raise RobotRefusal(409, "rehearsal_no_plan", "", None)
         return self.answer
@@ -54,8 +59,7 @@ UNKNOWN_WAY = Prospect(math.inf, moves=True, rooms=None)
          Prospect(0.0, moves=False, rooms=frozenset())),
         ({"steps": [{"does": "open"}], "length_m": 0}, Prospect(0.0, moves=True, rooms=None)),
         ({"steps": [{"does": "shut"}], "length_m": 3}, UNKNOWN_WAY),
-        ({"steps": [{"does": "drives", "points": ["?"]}], "length_m": 3}, UNKNOWN_WAY),
-        ([], UNKNOWN_WAY),
+        ({"steps": [{"does": "drives", "points": None}]}, replace(UNKNOWN_WAY, rooms=frozenset())),
         (None, UNKNOWN_WAY),
     ],
 )  # fmt: skip
@@ -63,6 +67,14 @@ def test_a_rehearsal_is_read_and_in_doubt_it_moves_anywhere(
     answer: Any, prospect: Prospect
 ) -> None:
     assert ahead(answer) == prospect
+
+
+def test_a_robot_that_answers_no_rehearsal_is_not_asked_for_the_next_order() -> None:
+    silent = Rehearsing(RobotAway("no whole answer in 10 s"))
+    for _ in range(2):
+        mission = kept_mission()
+        assert asyncio.run(look_ahead(mission, silent, CARD)) == UNKNOWN_WAY  # type: ignore[arg-type]
+    assert silent.asked == 1
 
 
 def test_steps_are_no_sentence_to_rehearse() -> None:

@@ -31,6 +31,7 @@ async def measure(house: House, orders: int, stops: int) -> list[str]:
     """Return rows of figures; orders come at 5 a second, to anybody."""
     rows = [await _stand_idle(house)]
     accept_s, told_unix_s = [], {}
+    before_s, _ = house.service_cost()
     begin_s = time.monotonic()
     for number in range(FIRST, FIRST + orders):
         await asyncio.sleep(begin_s + (number - FIRST) / A_SECOND - time.monotonic())
@@ -42,11 +43,13 @@ async def measure(house: House, orders: int, stops: int) -> list[str]:
         answer.raise_for_status()
     rows.append(tell("accept (202) at 5/s", accept_s, 0.05))
     await asyncio.sleep(10.0)
+    rows.append(_cost(house, before_s, orders, "an order, from accept to its end"))
     written = await asyncio.to_thread(written_at, house.homes)
     late_s = [written[number] - told for number, told in told_unix_s.items() if number in written]
     rows.append(tell("accept to the robot's journal", [max(0.0, s) for s in late_s], 0.3))
     rows.append(f"  of {orders} orders {len(late_s)} are in a journal")
     stop_s, missed = [], 0
+    before_s, _ = house.service_cost()
     for _ in range(stops):
         asked_s = time.monotonic()
         told = (await house.client.post("/v1/stop")).json()
@@ -54,8 +57,17 @@ async def measure(house: House, orders: int, stops: int) -> list[str]:
         missed += len(told["not_reached"])
         await asyncio.sleep(0.5)
     rows.append(tell("stop all, echoed by all reached", stop_s, 0.5))
+    rows.append(_cost(house, before_s, stops, "a stop of all, with 0.5 s of rest"))
     rows.append(f"  {missed} of {stops * len(house.robots)} confirmations were missing")
     return rows
+
+
+def _cost(house: House, before_s: float, count: int, what: str) -> str:
+    """Return a row: the processor time of the service for each of these."""
+    after_s, memory_mb = house.service_cost()
+    return (
+        f"  {1e3 * (after_s - before_s) / count:.0f} ms of processor for {what}; {memory_mb:.0f} MB"
+    )
 
 
 async def _stand_idle(house: House) -> str:

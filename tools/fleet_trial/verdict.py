@@ -32,16 +32,33 @@ class TrialVerdict:
     begun_twice: tuple[int, ...]
     """Two goals ran, over all journals."""
     given_twice: tuple[int, ...]
-    """Two goals or two missions were made, begun or not."""
+    """Two goals or two missions were made, begun or not, but for goals that were taken back."""
     without_end: tuple[int, ...]
     """Not ended, or a robot is not told as done with it."""
     told_wrong: tuple[int, ...]
     """The fleet tells another end than the robot's journal."""
+    taken_back: tuple[int, ...]
+    """No fault: a robot's disk was too slow for an offer. See ``_is_taken_back``."""
 
     @property
     def is_clean(self) -> bool:
         """Return whether nothing went wrong."""
-        return not any(getattr(self, field.name) for field in fields(self))
+        faults = (field.name for field in fields(self) if field.name != "taken_back")
+        return not any(getattr(self, name) for name in faults)
+
+
+@dataclass(frozen=True, slots=True)
+class JournalGoal:
+    """Hold what a robot's journal says of one goal, over all its transitions."""
+
+    state: str
+    has_run: bool
+    did_anything: bool
+    """A metre was driven, or a step came to an end, in whichever record."""
+    has_key: bool
+    """A key leads to it: it is what the robot answers to whoever asks again."""
+    first_unix_s: float
+    last_unix_s: float
 
 
 def judge(
@@ -54,34 +71,54 @@ def judge(
         homes: of the robots.
         database: of the fleet, as a URL.
     """
-    goals: dict[int, dict[tuple[str, str], tuple[str, bool]]] = defaultdict(dict)
+    goals: dict[int, list[JournalGoal]] = defaultdict(list)
+    taken_back = []
     for home in homes:
-        for number, goal, state, has_run in _read_journal(home / "missions.db"):
-            goals[number][home.name, goal] = (state, has_run)
+        for number, found in _read_journal(home / "missions.db").items():
+            kept = [goal for goal in found if not _is_taken_back(goal, found)]
+            goals[number] += kept
+            taken_back += [number] * (len(found) - len(kept))
     missions: dict[int, dict[str, str]] = defaultdict(dict)
     for mission_id, text, state in _read_rows(database):
-        if (found := NUMBER.search(text)) is not None:
-            missions[int(found[1])][mission_id] = state
+        if (said := NUMBER.search(text)) is not None:
+            missions[int(said[1])][mission_id] = state
     lost, open_, wrong = [], [], []
     for number, ids in accepted.items():
         states = {missions[number].get(each) for each in ids}
-        taken = goals[number].values()
-        told = {state for state, has_begun in taken if has_begun} or {state for state, _ in taken}
+        taken = goals[number]
+        told = {goal.state for goal in taken if goal.has_run} or {goal.state for goal in taken}
         if None in states or not ids or (not told and not states <= ENDED):
             lost.append(number)
         elif not states <= ENDED:
             open_.append(number)
         elif states != {"given_up"} and (states != told if told else "succeeded" in states):
             wrong.append(number)
-    began = {number: sum(b for _, b in found.values()) for number, found in goals.items()}
     return TrialVerdict(
         tuple(lost),
-        tuple(number for number, count in began.items() if count > 1),
+        tuple(number for number, found in goals.items() if sum(g.has_run for g in found) > 1),
         tuple(number for number in {*goals, *missions}
               if len(goals[number]) > 1 or len(missions[number]) > 1),
         tuple(open_),
         tuple(wrong),
+        tuple(taken_back),
     )  # fmt: skip
+
+
+def _is_taken_back(goal: JournalGoal, same: Sequence[JournalGoal]) -> bool:
+    """Return whether a robot took a goal back as one that its disk could not keep in time.
+
+    A planner answers 503 then, cancels the goal and forgets its key, so that the offer comes again
+    and makes a second goal; the first is written as soon as the disk can. Not excused is a goal
+    that did anything, that a key still leads to, that was not followed by another of the same
+    sentence in the same journal, or that had not ended when that one began. So two goals under two
+    keys, or at two robots, are always told, also where one of them stood still.
+    """
+    return (
+        goal.state == "cancelled"
+        and not goal.did_anything
+        and not goal.has_key
+        and any(other.has_key and goal.last_unix_s <= other.first_unix_s for other in same)
+    )
 
 
 def written_at(homes: Sequence[Path]) -> dict[int, float]:
@@ -98,29 +135,34 @@ def written_at(homes: Sequence[Path]) -> dict[int, float]:
     return first
 
 
-def _read_journal(file: Path) -> list[tuple[int, str, str, bool]]:
-    """Return of each numbered goal its number, id, newest state, and whether it ever began.
-
-    One that a robot answered with 503, for a disk that was slow, is written later as one that ran,
-    and cancelled with all its steps skipped and no metre driven: it did not begin.
-    """
+def _read_journal(file: Path) -> dict[int, list[JournalGoal]]:
+    """Return the goals of each order's number."""
     with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as disk:
-        ran = {row[0] for row in disk.execute("SELECT mission FROM transitions "
-                                              "WHERE state='running'")}  # fmt: skip
-        records = [json.loads(row[0]) for row in disk.execute("SELECT record FROM missions")]
+        keyed = {row[0] for row in disk.execute("SELECT goal FROM idempotency_keys")}
+        newest = [json.loads(row[0]) for row in disk.execute("SELECT record FROM missions")]
+        passed: dict[str, list[tuple[str, float, dict[str, Any]]]] = defaultdict(list)
+        asked = "SELECT mission, state, at_unix_s, record FROM transitions ORDER BY seq"
+        for goal, state, at_unix_s, text in disk.execute(asked):
+            passed[goal].append((state, at_unix_s, json.loads(text)))
     disk.close()
-    return [
-        (int(found[1]), record["id"], record["state"], record["id"] in ran and not _is_idle(record))
-        for record in records
-        if (found := NUMBER.search(record["text"])) is not None
-    ]
+    goals: dict[int, list[JournalGoal]] = defaultdict(list)
+    for record in newest:
+        if (said := NUMBER.search(record["text"])) is None:
+            continue
+        states, times, records = zip(*passed[record["id"]], strict=True)
+        goals[int(said[1])].append(JournalGoal(
+            record["state"], "running" in states, any(map(_did_anything, (record, *records))),
+            record["id"] in keyed, min(times), max(times),
+        ))  # fmt: skip
+    return goals
 
 
-def _is_idle(record: dict[str, Any]) -> bool:
-    """Return whether a goal ended without a step or a metre."""
-    steps = (record.get("plan") or {}).get("steps") or [{}]
-    idle = all(step.get("state") in ("skipped", "pending") for step in steps)
-    return record["state"] == "cancelled" and idle and record.get("metres") == 0.0
+def _did_anything(record: dict[str, Any]) -> bool:
+    """Return whether a record tells of a metre, or of a step that came to an end."""
+    steps = (record.get("plan") or {}).get("steps") or ()
+    return record.get("metres") != 0.0 or any(
+        step.get("state") not in ("pending", "running", "skipped") for step in steps
+    )
 
 
 def _read_rows(database: str) -> list[tuple[str, str, str]]:

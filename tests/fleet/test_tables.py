@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 import sqlalchemy as sa
 
-from fleet import schema
+from fleet import tables
 from fleet.addressee import Addressee
 from fleet.store import FleetStore
 from fleet.tables import metadata, missions
@@ -40,20 +40,20 @@ def test_a_database_of_before_gets_what_it_lacks_and_keeps_its_rows(
         ):
             connection.execute(sa.text(words))
     store.close()
-    monkeypatch.setattr(schema, "VERSION", schema.VERSION + 1)
+    monkeypatch.setattr(tables, "VERSION", tables.VERSION + 1)
     newer = FleetStore(database)
     assert newer.mission("m-1").outcome is None
     newer.stop("s-1", [], forever=True)
     with newer.engine.begin() as connection:
         version = connection.execute(sa.text("SELECT version FROM fleet_schema")).scalar_one()
-    assert version == schema.VERSION
+    assert version == tables.VERSION
     newer.close()
 
 
 def test_a_database_of_a_newer_version_is_refused_and_left_as_it_is(database: str) -> None:
     store = FleetStore(database)
     with store.engine.begin() as connection:
-        connection.execute(sa.text(f"UPDATE fleet_schema SET version = {schema.VERSION + 1}"))
+        connection.execute(sa.text(f"UPDATE fleet_schema SET version = {tables.VERSION + 1}"))
     store.close()
     with pytest.raises(ConfigError) as refused:
         FleetStore(database)
@@ -85,5 +85,5 @@ def test_a_column_that_rows_can_not_have_is_no_way_to_a_new_version(tmp_path: Pa
     sa.Table("fleet_counter", more, sa.Column("id", sa.Integer, primary_key=True),
              sa.Column("owner", sa.Text, nullable=False))  # fmt: skip
     with pytest.raises(sa.exc.OperationalError), engine.begin() as connection:
-        schema.bring_up(connection, more)
+        tables.bring_up(connection, more)
     engine.dispose()
