@@ -17,7 +17,7 @@ from planner.mission.legs import abandon_route, detour_failed, new_leg, take_sho
 from planner.mission.occupied_goal import give_up_goal, wait_beside
 from planner.mission.outcomes import spot_at
 from planner.mission.queue import note_step, settle_activity
-from planner.mission.recovery import PASSING_S, Recovery, rung_of
+from planner.mission.recovery import Recovery, aside_s, passes_m, rung_of
 from planner.mission.recovery_steps import climb_on, end_manoeuvre, next_rung, way_shut
 from planner.mission.route_doubts import take_doubted
 from planner.mission.scene import scene_of
@@ -42,6 +42,8 @@ MAX_APPROACHES = 2
 TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
 MAX_ROUTES = 5
 RETRY_S = 1.0
+TURNED_S, SLOWLY_MPS = 12.0, 0.2
+"""Beside what stands 0.06 m away the gate lets the robot turn at 0.3 rad/s; then it drives off."""
 _TAKEN_BESIDE = {
     RoutePurpose.DOUBT: take_doubted,
     RoutePurpose.KEEP_RIGHT: take_doubted,
@@ -88,14 +90,17 @@ def _take_manoeuvre(
     if routed.failure is not None:
         end_manoeuvre(turn, leg, own)
     elif own.way is Way.ASIDE and not routed.length_m > 0.0:
-        _stay_aside(turn, leg, own)
+        _stay_aside(turn, mission, leg, own)
     else:
+        if own.way is Way.ASIDE and passes_m(mission.recovery) > 0.0:
+            until_s = turn.now_s + TURNED_S + routed.length_m / SLOWLY_MPS
+            turn.change(manoeuvre=replace(own, until_s=max(own.until_s, until_s)))
         new_leg(turn, mission)
 
 
-def _stay_aside(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
+def _stay_aside(turn: Transaction, mission: Mission, leg: Driving, own: Manoeuvre) -> None:
     """Stand where it is, where somebody can pass; a leg that is streamed goes on by itself."""
-    until_s = min(own.until_s, turn.now_s + PASSING_S)
+    until_s = turn.now_s + aside_s(mission.recovery)
     turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 from math import hypot, inf, pi
+from zlib import crc32
 
 from planner.navigation.obstruction import Obstruction
 from planner.plan import Frozen
@@ -73,7 +74,17 @@ WALKER_S = 1.0
 """Somebody who walked up is waited for so long before the robot gives way."""
 PASSING_S = 5.0
 """A robot that stands aside is passed by then: three metres at a slow walk."""
-MAX_RECOVERY_M = 8.0
+MAX_WIDE_LADDERS = 6
+"""Before one who is as wide as a robot: it has to turn and to drive off first."""
+WIDE_M = 0.5
+"""Who walked up and is wider than a person is perhaps a robot like this one; also who still stands
+there when the ladder is climbed once more: a side half hidden by a door frame looks narrow."""
+PASSES_M = 0.3
+"""The least radius for whom a robot makes way then."""
+WIDE_S = (2.0, 8.0)
+"""So much longer, at most, before the robot makes way for it, and while it stands aside: by chance,
+so that two who meet don't do the same at once again and again."""
+MAX_RECOVERY_M = 24.0
 """Driven for recoveries in one step."""
 MAX_VISITS = 2
 """To one obstruction in one step."""
@@ -168,7 +179,8 @@ def rung_after(record: RecoveryRecord) -> int:
         recovery = LADDER[place].recovery
         gives = recovery is Recovery.GIVE_WAY and not can_give_way(record)
         looks = recovery is Recovery.LOOK and walked
-        if not (gives or looks):
+        leaves = recovery is Recovery.BACK_OFF and passes_m(record) > 0.0
+        if not (gives or looks or leaves):
             break
         place += 1
     return place
@@ -178,7 +190,40 @@ def wait_s(record: RecoveryRecord) -> float:
     """Return how long the rung that is next waits [s]."""
     rung = rung_of(record)
     gives_way = record.rung == 0 and can_give_way(record)
-    return min(rung.seconds, WALKER_S) if gives_way else rung.seconds
+    return min(rung.seconds, WALKER_S + _by_chance(record)[0]) if gives_way else rung.seconds
+
+
+def aside_s(record: RecoveryRecord) -> float:
+    """Return how long a robot that has made way stands there [s]."""
+    return PASSING_S + _by_chance(record)[1]
+
+
+def passes_m(record: RecoveryRecord) -> float:
+    """Return the radius of who is to pass, where that is more than a person; 0: it is not."""
+    newest, again = record.newest, record.climbed_again > 0
+    if newest is None or not newest.moves or not (again or _is_wide(record)):
+        return 0.0
+    return max(newest.obstruction.width_m / 2, PASSES_M)
+
+
+def _is_wide(record: RecoveryRecord) -> bool:
+    return record.newest is not None and record.newest.obstruction.width_m > WIDE_M
+
+
+def waits_for_other(record: RecoveryRecord) -> bool:
+    """Tell whether the other one may still be about to make way: it has the time of two ladders."""
+    return record.climbed_again < 2
+
+
+def _by_chance(record: RecoveryRecord) -> tuple[float, float]:
+    """Return what is waited longer before and aside: by where it stood, to a part of a millimetre.
+
+    The pose's own noise is the chance: a reducer told the same does the same.
+    """
+    if not passes_m(record) > 0.0:
+        return 0.0, 0.0
+    drawn = crc32(f"{record.began_at} {record.ladders}".encode())
+    return WIDE_S[0] * (drawn & 0xFFFF) / 0xFFFF, WIDE_S[1] * (drawn >> 16) / 0xFFFF
 
 
 def can_give_way(record: RecoveryRecord) -> bool:
@@ -215,7 +260,8 @@ def turn_out(record: RecoveryRecord, at_m: tuple[float, float]) -> RecoveryRecor
 def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:
     """Return the record at the ladder's foot, where giving up would be too soon; else None."""
     walked = record.newest is not None and record.newest.moves
-    if not walked or record.climbed_again + 1 >= MAX_WALKER_LADDERS:
+    most = MAX_WIDE_LADDERS if _is_wide(record) else MAX_WALKER_LADDERS
+    if not walked or record.climbed_again + 1 >= most:
         return None
     spent = record.ladders >= MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
     update = {

@@ -21,10 +21,10 @@ from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
     MAX_TOLD,
-    PASSING_S,
     TURN_OUT,
     LadderRung,
     Recovery,
+    aside_s,
     begin_ladder,
     can_give_way,
     climb_again,
@@ -262,7 +262,7 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
     )
     aside = own.rung.recovery is Recovery.GIVE_WAY
     if reached and aside and not own.part:
-        until_s = min(own.until_s, turn.now_s + PASSING_S)
+        until_s = turn.now_s + aside_s(mission.recovery)
         turn.change(manoeuvre=replace(own, part=1, until_s=until_s))
         return
     if not (turn.now_s >= own.until_s or (reached and not aside)):

@@ -65,7 +65,9 @@ class RouteRequest:
     obstacles: tuple[tuple[float, float], ...] = ()  # recent lidar points in ``map`` [m]
     straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
     aside: bool = False  # go where somebody who stands at the goal can walk past
-    strict: bool = False  # fail, where the only way leads through what is remembered
+    passes_m: float = 0.0  # the radius of who is to pass, where it is wider than a person
+    strict: bool = False  # fail, where the only way leads through what is remembered; where the
+    # one who is to pass could stand aside with a shorter way
     keep_right_m: float = 0.0  # so far leave room on the left, for somebody who comes
     explore: bool = False  # go where the map's next frontier is seen from; the goal means nothing
     sees: tuple[float, float] | None = None  # the end is to see this point of the map, and face it
