@@ -15,6 +15,7 @@ from math import hypot, inf, pi
 from zlib import crc32
 
 from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import is_wide
 from planner.plan import Frozen
 from wire import Pose2
 
@@ -74,13 +75,11 @@ WALKER_S = 1.0
 """Somebody who walked up is waited for so long before the robot gives way."""
 PASSING_S = 5.0
 """A robot that stands aside is passed by then: three metres at a slow walk."""
-MAX_WIDE_LADDERS = 6
+MAX_WIDE_LADDERS = 8
 """Before one who is as wide as a robot: it has to turn and to drive off first."""
-WIDE_M = 0.5
-"""Who walked up and is wider than a person is perhaps a robot like this one; also who still stands
-there when the ladder is climbed once more: a side half hidden by a door frame looks narrow."""
 PASSES_M = 0.3
-"""The least radius for whom a robot makes way then."""
+"""The least radius for whom a robot makes way then; also for a person who still stands there when
+the ladder is climbed once more."""
 WIDE_S = (2.0, 8.0)
 """So much longer, at most, before the robot makes way for it, and while it stands aside: by chance,
 so that two who meet don't do the same at once again and again."""
@@ -109,6 +108,8 @@ class ShutWay(Frozen):
     """The map's own walls leave too little room there."""
     moves: bool = False
     """It walked up: it is nothing that shuts a way for long."""
+    radius_m: float = 0.0
+    """Of the disc that held it while it walked."""
     ladder: int = 0
     """The ladder on which it was met last."""
     visits: int = 1
@@ -201,18 +202,14 @@ def aside_s(record: RecoveryRecord) -> float:
 def passes_m(record: RecoveryRecord) -> float:
     """Return the radius of who is to pass, where that is more than a person; 0: it is not."""
     newest, again = record.newest, record.climbed_again > 0
-    if newest is None or not newest.moves or not (again or _is_wide(record)):
+    if newest is None or not newest.moves or not (again or is_wide(newest.radius_m)):
         return 0.0
-    return max(newest.obstruction.width_m / 2, PASSES_M)
-
-
-def _is_wide(record: RecoveryRecord) -> bool:
-    return record.newest is not None and record.newest.obstruction.width_m > WIDE_M
+    return max(newest.radius_m, PASSES_M)
 
 
 def waits_for_other(record: RecoveryRecord) -> bool:
-    """Tell whether the other one may still be about to make way: it has the time of two ladders."""
-    return record.climbed_again < 2
+    """Tell whether the other one may still be about to make way: for three ladders."""
+    return record.climbed_again < 3
 
 
 def _by_chance(record: RecoveryRecord) -> tuple[float, float]:
@@ -260,7 +257,8 @@ def turn_out(record: RecoveryRecord, at_m: tuple[float, float]) -> RecoveryRecor
 def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:
     """Return the record at the ladder's foot, where giving up would be too soon; else None."""
     walked = record.newest is not None and record.newest.moves
-    most = MAX_WIDE_LADDERS if _is_wide(record) else MAX_WALKER_LADDERS
+    wide = record.newest is not None and is_wide(record.newest.radius_m)
+    most = MAX_WIDE_LADDERS if wide else MAX_WALKER_LADDERS
     if not walked or record.climbed_again + 1 >= most:
         return None
     spent = record.ladders >= MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
@@ -280,6 +278,7 @@ def note_obstruction(
     local_offset_s: float = 0.0,
     *,
     moves: bool = False,
+    radius_m: float = 0.0,
 ) -> RecoveryRecord:
     """Remember what stands in the way. A thing that is met again keeps since when it stands.
 
@@ -292,6 +291,7 @@ def note_obstruction(
         now_unix_s: now.
         local_offset_s: of people's own clock from UTC.
         moves: somebody was seen to walk there within the last seconds.
+        radius_m: of who did.
     """
     met = (*record.shut, *((record.newest,) if record.newest is not None else ()))
     known = next((way for way in met if is_same(way.obstruction, seen)), None)
@@ -303,6 +303,7 @@ def note_obstruction(
         local_offset_s=local_offset_s,
         gap=seen.gap,
         moves=moves or (known is not None and known.moves),
+        radius_m=max(radius_m, known.radius_m if known else 0.0),
         ladder=record.ladders,
         visits=known.visits + (known.ladder != record.ladders) if known else 1,
     )

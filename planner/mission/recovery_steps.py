@@ -64,8 +64,11 @@ def on_survey(turn: Transaction, survey: Surveyed) -> None:
         known = held is not None and is_same(held.obstruction, seen)
         # Once a second is enough: each of these is written to the journal.
         if held is None or not known or now_unix_s - held.seen_unix_s >= 1.0:
-            offset_s = survey.local_offset_s
-            record = note_obstruction(record, seen, now_unix_s, offset_s, moves=survey.moves)
+            record = note_obstruction(
+                *(record, seen, now_unix_s, survey.local_offset_s),
+                moves=survey.moves,
+                radius_m=survey.radius_m,
+            )
     if record is not mission.recovery:
         turn.put(mission, recovery=record)
 
@@ -106,7 +109,7 @@ def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
     if mission is None or record is None or pose is None:
         return
     mission = turn.put(mission, recovery=record)
-    _note_recovery(turn, mission, Recovery.TURN_OUT)
+    note_recovery(turn, mission, Recovery.TURN_OUT)
     _turn_to_look(turn, leg, TURN_OUT, 0, pose.yaw_rad)
 
 
@@ -131,11 +134,12 @@ def _begin_rung(turn: Transaction) -> float:
         return leg.rung_since_s
     turn.change(rung_since_s=turn.now_s)
     if mission is not None:
-        _note_recovery(turn, mission, rung_of(mission.recovery).recovery)
+        note_recovery(turn, mission, rung_of(mission.recovery).recovery)
     return turn.now_s
 
 
-def _note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> None:
+def note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> None:
+    """Tell in the step's record what is tried."""
     if mission.current_step is not None:
         told = (*mission.current_step.recoveries, recovery.value)
         note_step(turn, mission, recoveries=told[-MAX_TOLD:])

@@ -12,7 +12,7 @@ from math import ceil, hypot, pi
 import cv2
 import numpy as np
 
-from planner.navigation.costmap import Costmap
+from planner.navigation.costmap import MARGIN_M, Costmap
 from planner.navigation.route import RouteFailure, RouteRequest
 from planner.navigation.start_and_goal import Cell, choose_start
 from wire import Pose2
@@ -31,6 +31,8 @@ BESIDE_M = 0.3
 """What both keep from each other: nearer, the gate lets the one who passes creep only."""
 WINDOW_M = 1.7
 """Floor that a standing robot cuts in two is cut within sight of it: a way round is no way past."""
+CROSSES_M = 0.1
+"""A way aside may come so much nearer to the other one."""
 EQUAL_M = 0.4
 """Ways aside that differ by less are equally long: chance decides then."""
 SMALL_M2 = 0.3
@@ -68,10 +70,25 @@ def choose_pocket(
             [robot[0] + radius_m * np.cos(around), robot[1] + radius_m * np.sin(around)]
         )
         seen = mapped.with_obstacles([(x, y) for x, y in body.T.tolist()], other)
+        seen = keep_off(seen, other, robot)
         theirs = _find_pocket(mapped, seen, other, robot, mapped.radius_m, price_from)
         if theirs is not None and theirs[1] < own[1] - EQUAL_M:
             raise RouteFailure("no_route", "the other one has the shorter way aside")
     return robot if own[1] <= EQUAL_M else mapped.grid.centre_of(*own[0])
+
+
+def keep_off(costmap: Costmap, robot: Point, other: Point) -> Costmap:
+    """Return the costmap with all closed that is nearer to the other one than the robot is now.
+
+    Who makes way across the other's way meets it there.
+    """
+    away_m = hypot(robot[0] - other[0], robot[1] - other[1])
+    ring_m = away_m - CROSSES_M - costmap.radius_m - MARGIN_M
+    if not ring_m > 0.0:
+        return costmap
+    around = np.linspace(0.0, 2 * pi, max(8, ceil(2 * pi * ring_m / costmap.grid.resolution_m)))
+    ring = zip(other[0] + ring_m * np.cos(around), other[1] + ring_m * np.sin(around), strict=True)
+    return costmap.with_obstacles([(float(x_m), float(y_m)) for x_m, y_m in ring], robot)
 
 
 def _middle_of(robot: Point, seen: Point, radius_m: float) -> Point:

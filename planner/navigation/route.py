@@ -139,6 +139,15 @@ class ScanObservation:
     ] = ()  # points of the way from the robot on, in ``map`` [m]
 
 
+WIDE_M = 0.33
+"""The radius of a disc, as the tracker draws it, that holds more than a person: perhaps a robot."""
+
+
+def is_wide(radius_m: float) -> bool:
+    """Tell whether a disc holds more than a person."""
+    return radius_m > WIDE_M
+
+
 @dataclass(frozen=True, slots=True)
 class Mover:
     """Show something that moves: a disc in ``map`` with its velocity."""

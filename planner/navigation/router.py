@@ -21,7 +21,7 @@ from planner.navigation.costmap import Costmap, static_costmap
 from planner.navigation.frontier import FrontierMemory, find_frontiers, known_m2
 from planner.navigation.keep_right import keep_right
 from planner.navigation.obstacle_memory import ObstacleMemory
-from planner.navigation.pocket import choose_pocket
+from planner.navigation.pocket import choose_pocket, keep_off
 from planner.navigation.route import (
     MIN_SPEED_MPS,
     FloorReport,
@@ -137,6 +137,7 @@ class Router:
         if request.aside:
             person_m = (request.goal.x_m, request.goal.y_m)
             if request.passes_m > 0.0:
+                costmap = keep_off(costmap, start_m, person_m)
                 bay_m = choose_pocket(self._mapped, costmap, request, self._price_from)
             else:
                 bay_m = find_bay(self._mapped, costmap, start_m, person_m)

@@ -67,6 +67,15 @@ def test_asked_first_the_one_with_the_shorter_way_goes_and_the_other_does_not() 
 
 
 def test_without_a_place_to_pass_there_is_none() -> None:
-    tube = drawn("#" * 40, *(["#" + "." * 38 + "#"] * 4), "#" * 40)
+    """A tube 0.9 m wide, longer than anybody goes back, with the robot in its middle."""
+    tube = drawn("#" * 120, *(["#" + "." * 118 + "#"] * 4), "#" * 120)
     with pytest.raises(RouteFailure, match="could pass"):
-        Router(tube, LIMITS).route(aside((5.0, 0.75), (4.0, 0.75)))
+        Router(tube, LIMITS).route(aside((15.0, 0.75), (14.0, 0.75)))
+
+
+def test_nobody_makes_way_across_the_others_way() -> None:
+    """The nearest pocket of a robot before the door lies behind the other one's way out of it."""
+    robot, other = (5.9, 3.55), (5.0, 2.85)
+    line = Router(ROOMS, LIMITS).route(aside(robot, other)).points
+    away_m = hypot(robot[0] - other[0], robot[1] - other[1])
+    assert all(hypot(p.x_m - other[0], p.y_m - other[1]) >= away_m - 0.2 for p in line)
