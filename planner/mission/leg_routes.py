@@ -122,8 +122,8 @@ def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Rou
         own = replace(own, part=1, until_s=turn.now_s + HOLDS_S, is_early=False)
         turn.change(manoeuvre=own, leg=None)
     elif routed.length_m > 0.0:
-        note_recovery(turn, mission, own.rung.recovery)
-        _begin_manoeuvre(turn, mission, own, routed)
+        noted = note_recovery(turn, mission, own.rung.recovery)
+        _begin_manoeuvre(turn, noted, own, routed)
     else:
         turn.change(manoeuvre=None)
 

@@ -138,11 +138,12 @@ def _begin_rung(turn: Transaction) -> float:
     return turn.now_s
 
 
-def note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> None:
+def note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> Mission:
     """Tell in the step's record what is tried."""
-    if mission.current_step is not None:
-        told = (*mission.current_step.recoveries, recovery.value)
-        note_step(turn, mission, recoveries=told[-MAX_TOLD:])
+    if mission.current_step is None:
+        return mission
+    told = (*mission.current_step.recoveries, recovery.value)
+    return note_step(turn, mission, recoveries=told[-MAX_TOLD:])
 
 
 def climb_on(turn: Transaction) -> None:

@@ -29,7 +29,7 @@ LANE_M = 0.06
 """What the other keeps from walls: a centimetre more than its gate needs."""
 BESIDE_M = 0.3
 """What both keep from each other: nearer, the gate lets the one who passes creep only."""
-WINDOW_M = 1.7
+WINDOW_M = 3.0
 """Floor that a standing robot cuts in two is cut within sight of it: a way round is no way past."""
 CROSSES_M = 0.1
 """A way aside may come so much nearer to the other one."""
