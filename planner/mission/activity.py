@@ -42,6 +42,8 @@ class Manoeuvre:
     """The robot's in ``map``, when the rung began."""
     stays: bool = False
     """It stands where somebody can pass already: its own way goes on once that is free."""
+    is_early: bool = False
+    """Nothing held the leg when it was asked for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +72,8 @@ class LegDoubts:
     """When a way on the right was searched last."""
     met_s: float = float("-inf")
     """When somebody was last seen to come towards the robot."""
+    made_way_s: float = float("-inf")
+    """When it was last decided who makes way."""
     bends: int = 0
     """Ways taken because the one before was doubted."""
 

@@ -86,13 +86,16 @@ class AskRoute:
     speed_mps: float | None = None
     """The fastest that this way may be driven; None: as the route says."""
     doubted: bool = False
-    """Only a way round everything that is remembered helps."""
+    """Only a way round everything that is remembered helps; aside, only where the other one has no
+    shorter way aside."""
     sees: tuple[float, float] | None = None
     """The end is to see this point of the map, and to face it."""
     sees_from_m: float = 0.0
     """No nearer to it."""
     keep_right_m: float = 0.0
     """So far leave room on the left, for somebody who comes."""
+    passes_m: float = 0.0
+    """The radius of who is to pass a robot that stands aside; 0: a person's."""
 
 
 @dataclass(frozen=True, slots=True)

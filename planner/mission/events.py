@@ -116,6 +116,10 @@ class Oncoming:
     """Where they are on it, in ``map``."""
     far_m: float
     """Along it, from the robot to there."""
+    seen_m: tuple[float, float] = (0.0, 0.0)
+    """Where the lidar sees their side."""
+    radius_m: float = 0.0
+    """Of the disc that holds what is seen of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +143,8 @@ class Surveyed:
     """Of the ways that are remembered as shut: through these the lidar sees now."""
     local_offset_s: float = 0.0
     """Of people's own clock from UTC, to tell them since when."""
+    radius_m: float = 0.0
+    """Of what moved there, where something did."""
 
 
 @dataclass(frozen=True, slots=True)

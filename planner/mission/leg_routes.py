@@ -17,8 +17,14 @@ from planner.mission.legs import abandon_route, detour_failed, new_leg, take_sho
 from planner.mission.occupied_goal import give_up_goal, wait_beside
 from planner.mission.outcomes import spot_at
 from planner.mission.queue import note_step, settle_activity
-from planner.mission.recovery import PASSING_S, Recovery, rung_of
-from planner.mission.recovery_steps import climb_on, end_manoeuvre, next_rung, way_shut
+from planner.mission.recovery import Recovery, aside_s, passes_m, rung_of
+from planner.mission.recovery_steps import (
+    climb_on,
+    end_manoeuvre,
+    next_rung,
+    note_recovery,
+    way_shut,
+)
 from planner.mission.route_doubts import take_doubted
 from planner.mission.scene import scene_of
 from planner.mission.skills import Fail, Way, act_of
@@ -42,6 +48,10 @@ MAX_APPROACHES = 2
 TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
 MAX_ROUTES = 5
 RETRY_S = 1.0
+TURNED_S, SLOWLY_MPS = 12.0, 0.2
+"""Beside what stands 0.06 m away the gate lets the robot turn at 0.3 rad/s; then it drives off."""
+HOLDS_S = 2.0
+"""Before one that makes way a robot stands so long, and longer while no way leads past it."""
 _TAKEN_BESIDE = {
     RoutePurpose.DOUBT: take_doubted,
     RoutePurpose.KEEP_RIGHT: take_doubted,
@@ -85,17 +95,42 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
 def _take_manoeuvre(
     turn: Transaction, mission: Mission, leg: Driving, own: Manoeuvre, routed: Routed
 ) -> None:
-    if routed.failure is not None:
+    if own.is_early:
+        _take_early(turn, mission, own, routed)
+    elif routed.failure is not None:
         end_manoeuvre(turn, leg, own)
     elif own.way is Way.ASIDE and not routed.length_m > 0.0:
-        _stay_aside(turn, leg, own)
+        _stay_aside(turn, mission, leg, own)
     else:
-        new_leg(turn, mission)
+        _begin_manoeuvre(turn, mission, own, routed)
 
 
-def _stay_aside(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
+def _begin_manoeuvre(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Routed) -> None:
+    if own.way is Way.ASIDE and passes_m(mission.recovery) > 0.0:
+        until_s = turn.now_s + TURNED_S + routed.length_m / SLOWLY_MPS
+        turn.change(manoeuvre=replace(own, until_s=max(own.until_s, until_s)))
+    new_leg(turn, mission)
+
+
+def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Routed) -> None:
+    """Make way before one who comes is there; else stand, unless it can pass.
+
+    Who comes makes way then, or is stopped by this robot: two that both drive stop too late.
+    """
+    if routed.failure is not None:
+        note_recovery(turn, mission, Recovery.WAIT)
+        own = replace(own, part=1, until_s=turn.now_s + HOLDS_S, is_early=False)
+        turn.change(manoeuvre=own, leg=None)
+    elif routed.length_m > 0.0:
+        noted = note_recovery(turn, mission, own.rung.recovery)
+        _begin_manoeuvre(turn, noted, own, routed)
+    else:
+        turn.change(manoeuvre=None)
+
+
+def _stay_aside(turn: Transaction, mission: Mission, leg: Driving, own: Manoeuvre) -> None:
     """Stand where it is, where somebody can pass; a leg that is streamed goes on by itself."""
-    until_s = min(own.until_s, turn.now_s + PASSING_S)
+    until_s = turn.now_s + aside_s(mission.recovery)
     turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
 
 

@@ -19,7 +19,7 @@ from planner.language.catalogue import say
 from planner.mission.activity import Driving, RoutePurpose
 from planner.mission.effects import AskRoute
 from planner.mission.queue import finish, standing_hold
-from planner.mission.recovery import shut_now
+from planner.mission.recovery import passes_m, shut_now, waits_for_other
 from planner.mission.skills import Fail, Way, no_room
 from planner.mission.skills.move import along
 from planner.mission.skills.turn import turned_rad
@@ -71,6 +71,9 @@ def ask_route(
     ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps, doubted)
     if own is None and way is Way.ROUTE:
         ask = replace(ask, sees=leg.act.sees, sees_from_m=leg.act.sees_from_m)
+    if own is not None and way is Way.ASIDE:
+        wide_m, waits = passes_m(record), waits_for_other(record)
+        ask = replace(ask, passes_m=wide_m, doubted=wide_m > 0.0 and waits)
     turn.emit(replace(ask, keep_right_m=keep_right_m))
 
 

@@ -12,8 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 from math import hypot, inf, pi
+from zlib import crc32
 
 from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import is_wide
 from planner.plan import Frozen
 from wire import Pose2
 
@@ -73,7 +75,15 @@ WALKER_S = 1.0
 """Somebody who walked up is waited for so long before the robot gives way."""
 PASSING_S = 5.0
 """A robot that stands aside is passed by then: three metres at a slow walk."""
-MAX_RECOVERY_M = 8.0
+MAX_WIDE_LADDERS = 8
+"""Before one who is as wide as a robot: it has to turn and to drive off first."""
+PASSES_M = 0.3
+"""The least radius for whom a robot makes way then; also for a person who still stands there when
+the ladder is climbed once more."""
+WIDE_S = (2.0, 8.0)
+"""So much longer, at most, before the robot makes way for it, and while it stands aside: by chance,
+so that two who meet don't do the same at once again and again."""
+MAX_RECOVERY_M = 24.0
 """Driven for recoveries in one step."""
 MAX_VISITS = 2
 """To one obstruction in one step."""
@@ -98,6 +108,8 @@ class ShutWay(Frozen):
     """The map's own walls leave too little room there."""
     moves: bool = False
     """It walked up: it is nothing that shuts a way for long."""
+    radius_m: float = 0.0
+    """Of the disc that held it while it walked."""
     ladder: int = 0
     """The ladder on which it was met last."""
     visits: int = 1
@@ -168,7 +180,8 @@ def rung_after(record: RecoveryRecord) -> int:
         recovery = LADDER[place].recovery
         gives = recovery is Recovery.GIVE_WAY and not can_give_way(record)
         looks = recovery is Recovery.LOOK and walked
-        if not (gives or looks):
+        leaves = recovery is Recovery.BACK_OFF and passes_m(record) > 0.0
+        if not (gives or looks or leaves):
             break
         place += 1
     return place
@@ -178,7 +191,36 @@ def wait_s(record: RecoveryRecord) -> float:
     """Return how long the rung that is next waits [s]."""
     rung = rung_of(record)
     gives_way = record.rung == 0 and can_give_way(record)
-    return min(rung.seconds, WALKER_S) if gives_way else rung.seconds
+    return min(rung.seconds, WALKER_S + _by_chance(record)[0]) if gives_way else rung.seconds
+
+
+def aside_s(record: RecoveryRecord) -> float:
+    """Return how long a robot that has made way stands there [s]."""
+    return PASSING_S + _by_chance(record)[1]
+
+
+def passes_m(record: RecoveryRecord) -> float:
+    """Return the radius of who is to pass, where that is more than a person; 0: it is not."""
+    newest, again = record.newest, record.climbed_again > 0
+    if newest is None or not newest.moves or not (again or is_wide(newest.radius_m)):
+        return 0.0
+    return max(newest.radius_m, PASSES_M)
+
+
+def waits_for_other(record: RecoveryRecord) -> bool:
+    """Tell whether the other one may still be about to make way: for three ladders."""
+    return record.climbed_again < 3
+
+
+def _by_chance(record: RecoveryRecord) -> tuple[float, float]:
+    """Return what is waited longer before and aside: by where it stood, to a part of a millimetre.
+
+    The pose's own noise is the chance: a reducer told the same does the same.
+    """
+    if not passes_m(record) > 0.0:
+        return 0.0, 0.0
+    drawn = crc32(f"{record.began_at} {record.ladders}".encode())
+    return WIDE_S[0] * (drawn & 0xFFFF) / 0xFFFF, WIDE_S[1] * (drawn >> 16) / 0xFFFF
 
 
 def can_give_way(record: RecoveryRecord) -> bool:
@@ -215,7 +257,9 @@ def turn_out(record: RecoveryRecord, at_m: tuple[float, float]) -> RecoveryRecor
 def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:
     """Return the record at the ladder's foot, where giving up would be too soon; else None."""
     walked = record.newest is not None and record.newest.moves
-    if not walked or record.climbed_again + 1 >= MAX_WALKER_LADDERS:
+    wide = record.newest is not None and is_wide(record.newest.radius_m)
+    most = MAX_WIDE_LADDERS if wide else MAX_WALKER_LADDERS
+    if not walked or record.climbed_again + 1 >= most:
         return None
     spent = record.ladders >= MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
     update = {
@@ -234,6 +278,7 @@ def note_obstruction(
     local_offset_s: float = 0.0,
     *,
     moves: bool = False,
+    radius_m: float = 0.0,
 ) -> RecoveryRecord:
     """Remember what stands in the way. A thing that is met again keeps since when it stands.
 
@@ -246,6 +291,7 @@ def note_obstruction(
         now_unix_s: now.
         local_offset_s: of people's own clock from UTC.
         moves: somebody was seen to walk there within the last seconds.
+        radius_m: of who did.
     """
     met = (*record.shut, *((record.newest,) if record.newest is not None else ()))
     known = next((way for way in met if is_same(way.obstruction, seen)), None)
@@ -257,6 +303,7 @@ def note_obstruction(
         local_offset_s=local_offset_s,
         gap=seen.gap,
         moves=moves or (known is not None and known.moves),
+        radius_m=max(radius_m, known.radius_m if known else 0.0),
         ladder=record.ladders,
         visits=known.visits + (known.ladder != record.ladders) if known else 1,
     )

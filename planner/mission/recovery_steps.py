@@ -21,10 +21,10 @@ from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
     MAX_TOLD,
-    PASSING_S,
     TURN_OUT,
     LadderRung,
     Recovery,
+    aside_s,
     begin_ladder,
     can_give_way,
     climb_again,
@@ -64,8 +64,11 @@ def on_survey(turn: Transaction, survey: Surveyed) -> None:
         known = held is not None and is_same(held.obstruction, seen)
         # Once a second is enough: each of these is written to the journal.
         if held is None or not known or now_unix_s - held.seen_unix_s >= 1.0:
-            offset_s = survey.local_offset_s
-            record = note_obstruction(record, seen, now_unix_s, offset_s, moves=survey.moves)
+            record = note_obstruction(
+                *(record, seen, now_unix_s, survey.local_offset_s),
+                moves=survey.moves,
+                radius_m=survey.radius_m,
+            )
     if record is not mission.recovery:
         turn.put(mission, recovery=record)
 
@@ -106,7 +109,7 @@ def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
     if mission is None or record is None or pose is None:
         return
     mission = turn.put(mission, recovery=record)
-    _note_recovery(turn, mission, Recovery.TURN_OUT)
+    note_recovery(turn, mission, Recovery.TURN_OUT)
     _turn_to_look(turn, leg, TURN_OUT, 0, pose.yaw_rad)
 
 
@@ -131,14 +134,16 @@ def _begin_rung(turn: Transaction) -> float:
         return leg.rung_since_s
     turn.change(rung_since_s=turn.now_s)
     if mission is not None:
-        _note_recovery(turn, mission, rung_of(mission.recovery).recovery)
+        note_recovery(turn, mission, rung_of(mission.recovery).recovery)
     return turn.now_s
 
 
-def _note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> None:
-    if mission.current_step is not None:
-        told = (*mission.current_step.recoveries, recovery.value)
-        note_step(turn, mission, recoveries=told[-MAX_TOLD:])
+def note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> Mission:
+    """Tell in the step's record what is tried."""
+    if mission.current_step is None:
+        return mission
+    told = (*mission.current_step.recoveries, recovery.value)
+    return note_step(turn, mission, recoveries=told[-MAX_TOLD:])
 
 
 def climb_on(turn: Transaction) -> None:
@@ -262,7 +267,7 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
     )
     aside = own.rung.recovery is Recovery.GIVE_WAY
     if reached and aside and not own.part:
-        until_s = min(own.until_s, turn.now_s + PASSING_S)
+        until_s = turn.now_s + aside_s(mission.recovery)
         turn.change(manoeuvre=replace(own, part=1, until_s=until_s))
         return
     if not (turn.now_s >= own.until_s or (reached and not aside)):

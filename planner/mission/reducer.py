@@ -48,6 +48,7 @@ from planner.mission.goal_lifecycle import (
     take_plan,
 )
 from planner.mission.leg_routes import on_routed
+from planner.mission.make_way import make_way
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import on_recalled, on_sight, on_told, on_tool_answered
 from planner.mission.places_changed import on_known
@@ -167,6 +168,7 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
         case RouteDoubted():
             on_doubted(turn, event)
         case Oncoming():
+            make_way(turn, event)
             on_oncoming(turn, event)
         case Surveyed():
             on_survey(turn, event)

@@ -132,7 +132,9 @@ class ScanSender:
             tell(RouteDoubted(way.mission, way.leg, _point_along(way.points, far_m)))
         met = find_oncoming(way.points, self.report.movers)
         if met is not None:
-            tell(Oncoming(way.mission, way.leg, met.at_m, met.far_m))
+            who = met.who
+            seen_m, at = (who.x_m, who.y_m), (met.at_m, met.far_m)
+            tell(Oncoming(way.mission, way.leg, *at, seen_m, who.radius_m))
 
 
 def _point_along(way: tuple[Point, ...], far_m: float) -> Point:

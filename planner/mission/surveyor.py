@@ -35,13 +35,13 @@ class Surveyor:
     def __init__(self, link: Link, robot: RobotDescription, grid: GridMap) -> None:
         self._link, self._robot, self._grid = link, robot, grid
         self._next_s = float("-inf")
-        self._walked: tuple[tuple[float, float, float], ...] = ()
-        """Where something moved in the last seconds: x, y [m] in ``map``, and when."""
+        self._walked: tuple[tuple[float, float, float, float], ...] = ()
+        """Where something moved in the last seconds: x, y [m] in ``map``, when, and its radius."""
 
     def note_movers(self, movers: Sequence[Mover], now_s: float) -> None:
         """Remember for some seconds where something moves: who has stopped may walk on."""
         kept = tuple(at for at in self._walked if now_s - at[2] <= WALKED_S)
-        self._walked = (*kept, *((m.x_m, m.y_m, now_s) for m in movers))[-MAX_WALKED:]
+        self._walked = (*kept, *((m.x_m, m.y_m, now_s, m.radius_m) for m in movers))[-MAX_WALKED:]
 
     def survey(self, book: MissionState, leg: Leg | None, now_s: float) -> Surveyed | None:
         """Return what stands in the way of a leg that is blocked, and which shut ways are open.
@@ -72,9 +72,12 @@ class Surveyor:
             ) or find_narrow(path, (here.x_m, here.y_m), self._robot.base.radius_m, self._grid)
         if seen is None and not opened:
             return None
-        moves = seen is not None and any(
-            hypot(x_m - seen.middle[0], y_m - seen.middle[1]) <= BESIDE_M
-            for x_m, y_m, at_s in self._walked
+        walked = [
+            radius_m
+            for x_m, y_m, at_s, radius_m in self._walked
             if now_s - at_s <= WALKED_S
-        )
-        return Surveyed(seen, moves, opened, float(time.localtime().tm_gmtoff))
+            and seen is not None
+            and hypot(x_m - seen.middle[0], y_m - seen.middle[1]) <= BESIDE_M
+        ]
+        offset_s = float(time.localtime().tm_gmtoff)
+        return Surveyed(seen, bool(walked), opened, offset_s, max(walked, default=0.0))

@@ -213,6 +213,7 @@ class MissionTasks:
                 *(ask.start, ask.goal, obstacles),
                 straight=ask.way is Way.STRAIGHT,
                 aside=ask.way is Way.ASIDE,
+                passes_m=ask.passes_m,
                 explore=ask.way is Way.EXPLORE,
                 strict=ask.doubted,
                 keep_right_m=ask.keep_right_m,

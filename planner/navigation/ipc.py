@@ -34,6 +34,7 @@ def read_request(frame: Frame) -> RouteRequest:
         goal,
         obstacles,
         keep_right_m=float(head["keep_right_m"]),
+        passes_m=float(head["passes_m"]),
         sees=_read_point(head["sees"]),
         sees_from_m=float(head["sees_from_m"]),
         **kinds,

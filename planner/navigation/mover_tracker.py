@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from planner.navigation.route import is_wide
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -27,6 +29,8 @@ SAME_M = 0.6
 ALPHA, BETA = 0.5, 0.2
 MOVES_MPS = 0.25
 MOVES_S = 0.5
+SLOWS_MPS = 0.1
+"""What is as wide as a robot and has moved still moves, down to this: it slows down in a door."""
 LOST_S = 1.0
 MOST = 32
 """Clusters followed at a time."""
@@ -124,7 +128,8 @@ def _follow(
     miss_x_m, miss_y_m = x_m - due_x_m, y_m - due_y_m
     vx_mps = track.vx_mps + BETA * miss_x_m / gone_s
     vy_mps = track.vy_mps + BETA * miss_y_m / gone_s
-    fast = hypot(vx_mps, vy_mps) > MOVES_MPS
+    least_mps = SLOWS_MPS if track.is_mover and is_wide(radius_m) else MOVES_MPS
+    fast = hypot(vx_mps, vy_mps) > least_mps
     since_s = None if not fast else track.fast_since_s if track.fast_since_s is not None else at_s
     return replace(
         track,

@@ -7,10 +7,11 @@ from itertools import pairwise
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner.navigation.route import Mover, is_wide
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from planner.navigation.route import Mover
 
 Point = tuple[float, float]
 
@@ -18,7 +19,8 @@ BESIDE_M = 0.9
 """Farther from the way than this somebody walks past in a lane of their own."""
 NEAREST_M = 0.9
 """From the robot's middle along the way: who is nearer is met already, and the bridge judges it."""
-TOWARDS_MPS = 0.25
+TOWARDS_MPS, WIDE_TOWARDS_MPS = 0.25, 0.1
+"""The second of one as wide as a robot: it slows down in a door."""
 MOSTLY = 0.7
 """Of a mover's speed, the share that leads towards the robot: the rest is crossing."""
 
@@ -31,6 +33,7 @@ class Encounter:
     """Along the way."""
     at_m: Point
     """In ``map``."""
+    who: Mover
 
 
 def find_oncoming(way: Sequence[Point], movers: Sequence[Mover]) -> Encounter | None:
@@ -59,6 +62,7 @@ def _meeting(way: Sequence[Point], mover: Mover) -> Encounter | None:
     away_m, along_m, point, (ex, ey) = best
     against_mps = -(mover.vx_mps * ex + mover.vy_mps * ey)
     speed_mps = hypot(mover.vx_mps, mover.vy_mps)
-    comes = against_mps >= TOWARDS_MPS and against_mps >= MOSTLY * speed_mps
+    least_mps = WIDE_TOWARDS_MPS if is_wide(mover.radius_m) else TOWARDS_MPS
+    comes = against_mps >= least_mps and against_mps >= MOSTLY * speed_mps
     on_way = away_m <= BESIDE_M and along_m >= NEAREST_M
-    return Encounter(along_m, point) if comes and on_way else None
+    return Encounter(along_m, point, mover) if comes and on_way else None

@@ -65,7 +65,9 @@ class RouteRequest:
     obstacles: tuple[tuple[float, float], ...] = ()  # recent lidar points in ``map`` [m]
     straight: bool = False  # go straight, as far as floor is free, backwards if the goal is behind
     aside: bool = False  # go where somebody who stands at the goal can walk past
-    strict: bool = False  # fail, where the only way leads through what is remembered
+    passes_m: float = 0.0  # the radius of who is to pass, where it is wider than a person
+    strict: bool = False  # fail, where the only way leads through what is remembered; where the
+    # one who is to pass could stand aside with a shorter way
     keep_right_m: float = 0.0  # so far leave room on the left, for somebody who comes
     explore: bool = False  # go where the map's next frontier is seen from; the goal means nothing
     sees: tuple[float, float] | None = None  # the end is to see this point of the map, and face it
@@ -135,6 +137,15 @@ class ScanObservation:
     ahead: tuple[
         tuple[float, float], ...
     ] = ()  # points of the way from the robot on, in ``map`` [m]
+
+
+WIDE_M = 0.33
+"""The radius of a disc, as the tracker draws it, that holds more than a person: perhaps a robot."""
+
+
+def is_wide(radius_m: float) -> bool:
+    """Tell whether a disc holds more than a person."""
+    return radius_m > WIDE_M
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,6 +21,7 @@ from planner.navigation.costmap import Costmap, static_costmap
 from planner.navigation.frontier import FrontierMemory, find_frontiers, known_m2
 from planner.navigation.keep_right import keep_right
 from planner.navigation.obstacle_memory import ObstacleMemory
+from planner.navigation.pocket import choose_pocket, keep_off
 from planner.navigation.route import (
     MIN_SPEED_MPS,
     FloorReport,
@@ -135,7 +136,11 @@ class Router:
             return self._explore(costmap, request, frontiers or FrontierMemory(), began_s, clock)
         if request.aside:
             person_m = (request.goal.x_m, request.goal.y_m)
-            bay_m = find_bay(self._mapped, costmap, start_m, person_m)
+            if request.passes_m > 0.0:
+                costmap = keep_off(costmap, start_m, person_m)
+                bay_m = choose_pocket(self._mapped, costmap, request, self._price_from)
+            else:
+                bay_m = find_bay(self._mapped, costmap, start_m, person_m)
             if bay_m == start_m:
                 here = RoutePoint(*bay_m, MIN_SPEED_MPS)
                 return RouteResult((here,), 0.0, 0.0, False, clock() - began_s)
@@ -186,16 +191,11 @@ class Router:
     ) -> RouteResult:
         """Find the way to where the best frontier is seen from; stay where there is none."""
         grid, start = self._site.grid, choose_start(costmap, request)
-        floor = self._floor if costmap is self._mapped else self._floor_of(costmap)
-        field, part = (
-            costs_to(floor.lattice, floor.index(start)),
-            costmap.labels[start[1], start[0]],
-        )
-        step_m = floor.cells_a_step * grid.resolution_m
+        price_m, part = self._price_from(costmap, start), costmap.labels[start[1], start[0]]
 
         def way_m(cell: Cell) -> float:
             joined = costmap.labels[cell[1], cell[0]] == part
-            return field[floor.index(cell)] * step_m if joined else float("inf")
+            return price_m(cell) if joined else float("inf")
 
         memory.note_start((request.start.x_m, request.start.y_m), grid)
         frontier = memory.choose(find_frontiers(grid, costmap, way_m))
@@ -211,6 +211,13 @@ class Router:
         goal = Pose2(*frontier.stand, request.start.yaw_rad)
         found = self._find(costmap, replace(request, goal=goal, explore=False), began_s, clock)
         return replace(found, floor=report)
+
+    def _price_from(self, costmap: Costmap, start: Cell) -> Callable[[Cell], float]:
+        """Return the price of the way from a cell to another, in metres of open floor."""
+        floor = self._floor if costmap is self._mapped else self._floor_of(costmap)
+        field = costs_to(floor.lattice, floor.index(start))
+        step_m = floor.cells_a_step * costmap.grid.resolution_m
+        return lambda cell: field[floor.index(cell)] * step_m
 
     def _straight(
         self, costmap: Costmap, request: RouteRequest, began_s: float, clock: Callable[[], float]

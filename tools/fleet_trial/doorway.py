@@ -25,18 +25,24 @@ from wire import Pose2
 
 SITE, LIMIT_S = "home", 180.0
 OTHERS = ("other_0", "other_1")
-ROBOTS = (
-    (Pose2(1.4, 2.0, 1.57), (6.0, 4.7)),
-    (Pose2(5.2, 4.75, 3.14), (1.2, 1.9)),
-    (Pose2(3.6, 7.0, -1.57), (3.5, 3.4)),
-)
-"""Where each begins and ends: one out of the kitchen, two into it, through its only door."""
+OUT = (Pose2(1.4, 2.0, 1.57), (6.0, 4.7))
+IN_HALLWAY = (Pose2(5.2, 4.75, 3.14), (1.2, 1.9))
+IN_LIVING_ROOM = (Pose2(3.6, 7.0, -1.57), (3.5, 3.4))
+IN_DOOR = (Pose2(2.0, 4.0, 1.57), (6.0, 4.7))
+MEETINGS = {
+    "three": (OUT, IN_HALLWAY, IN_LIVING_ROOM),
+    "both_ways": (OUT, IN_HALLWAY),
+    "same_way": (IN_HALLWAY, IN_LIVING_ROOM),
+    "in_the_door": (IN_DOOR, IN_HALLWAY),
+}
+"""Where each begins and ends: out of the kitchen, and into it, through its only door."""
 
 
-def drive(seed: int) -> dict[str, Any]:
+def drive(seed: int, meeting: str = "three") -> dict[str, Any]:
     """Return what came of one meeting."""
     chance = random.Random(seed)
-    worlds = [_make_world(seed + index, start, chance) for index, (start, _) in enumerate(ROBOTS)]
+    robots = MEETINGS[meeting]
+    worlds = [_make_world(seed + index, start, chance) for index, (start, _) in enumerate(robots)]
     map_id = worlds[0].scene.site.map_id
     radius_m = worlds[0].scene.robot.base.radius_m
     _make_ready(worlds)
@@ -44,15 +50,17 @@ def drive(seed: int) -> dict[str, Any]:
     goals: list[Any] = [None] * len(worlds)
     least_m, began = inf, worlds[0].tick_count
     for tick in range(round(100 * LIMIT_S)):
-        for index, (world, (_, (x_m, y_m))) in enumerate(zip(worlds, ROBOTS, strict=True)):
+        for index, (world, (_, (x_m, y_m))) in enumerate(zip(worlds, robots, strict=True)):
             if tick == begins[index]:
                 goals[index] = world.go(GoToPose(map_id=map_id, x_m=x_m, y_m=y_m))
-        least_m = min(least_m, _turn_all(worlds) - 2 * radius_m)
+        at_rest = [goal is not None and goal.has_ended for goal in goals]
+        least_m = min(least_m, _turn_all(worlds, at_rest) - 2 * radius_m)
         if all(goal is not None and goal.has_ended for goal in goals):
             break
     states = [goal.state.value for goal in goals]
     return {
         "seed": seed,
+        "meeting": meeting,
         "states": states,
         "reasons": [goal.record.reason for goal in goals],
         "contacts": sum(world.contacts for world in worlds),
@@ -83,15 +91,20 @@ def _make_ready(worlds: list[DrivenWorld]) -> None:
     latest = max(world.tick_count for world in worlds)
     for world in worlds:
         world.run((latest - world.tick_count) / 100)
-    _turn_all(worlds)
+    _turn_all(worlds, [False] * len(worlds))
 
 
-def _turn_all(worlds: list[DrivenWorld]) -> float:
-    """Let one tick pass for all; return the least distance between two middles [m]."""
+def _turn_all(worlds: list[DrivenWorld], at_rest: list[bool]) -> float:
+    """Let one tick pass for all; return the least distance between two middles [m].
+
+    For one whose goal has ended, and that stands, time stops: the others still see and may hit it.
+    """
     poses = [world.truth for world in worlds]
     for index, world in enumerate(worlds):
+        if at_rest[index] and world.standing:
+            continue
         rest = [pose for other, pose in enumerate(poses) if other != index]
-        for name, pose in zip(OTHERS, rest, strict=True):
+        for name, pose in zip(OTHERS, rest, strict=False):
             world.sim.place_thing(name, pose)
         world.tick()
     return min(
@@ -104,6 +117,8 @@ def _turn_all(worlds: list[DrivenWorld]) -> float:
 def main() -> int:
     """Drive so often, and print each and their sum."""
     parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--meeting", choices=MEETINGS, default="three")
+    parser.add_argument("--first", type=int, default=0, help="the first drive's seed, by 1000")
     parser.add_argument("--drives", type=int, default=50)
     parser.add_argument("--file", type=Path, help="results are kept here, and not taken again")
     given = parser.parse_args()
@@ -111,7 +126,7 @@ def main() -> int:
     if given.file is not None and given.file.exists():
         rows = [json.loads(line) for line in given.file.read_text("utf-8").splitlines()]
     for seed in range(len(rows), given.drives):
-        rows.append(drive(1000 * seed))
+        rows.append(drive(1000 * (given.first + seed), given.meeting))
         print(rows[-1], flush=True)
         if given.file is not None:
             with given.file.open("a", encoding="utf-8") as kept:
