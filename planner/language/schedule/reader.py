@@ -26,6 +26,8 @@ from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold
 from planner.language.schedule.kept_orders import read_asked, read_change
 from planner.language.schedule.parts import (
     DayPart,
+    MonthDay,
+    OnceDay,
     Part,
     Problem,
     TimeOfDay,
@@ -171,6 +173,10 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     words = _words(said, rest, before, after)
     if remind is not None:
         return _reminder(order, timing, words, grammar, woken=woken)
+    if all(isinstance(part, OnceDay | DayPart | MonthDay) for part in parts):  # and no hour
+        asked = said.part(before.at, len(said.folded) - len(rest.folded) + after.at).bare().folded
+        if grammar.QUESTION.match(asked) or (not before.parts and grammar.TELL.match(asked)):
+            return None  # "will it rain tonight", 今天几点开会: it asks about the day
     once = isinstance(timing.when, DayTime | InRule) and before.parts
     states = once and begins_with_statement(order.folded, chinese=grammar is chinese)
     tells = after.parts and isinstance(timing.when, EventRule) and _TELLS.search(order.folded)
