@@ -120,6 +120,17 @@ def read_order_command(text: str) -> OrderCommand | None:
     return None if problem is None else ScheduleCommand(None, said.written, "", problem=problem)
 
 
+def asks_about_day(text: str) -> bool:
+    """Return whether a sentence is a question that names a day: "what is in my calendar today"."""
+    said = fold_sentence(text)
+    grammar = chinese if has_chinese(said.folded) else english
+    words = said.bare().strip(grammar.POLITE).bare().folded.replace("?", " ")
+    before, after = first_parts(words, grammar), last_parts(words, grammar)
+    asked = words[before.at :].lstrip(ENDS)
+    asks = any(form.match(asked) for form in (grammar.ASKS, grammar.QUESTION, grammar.TELL))
+    return asks and any(isinstance(part, OnceDay) for part in (*before.parts, *after.parts))
+
+
 def _problem_of(said: str) -> Problem | None:
     """Return why an English sentence is no order of now either; None: it may be one.
 
