@@ -49,5 +49,5 @@ def model_of(
 def brain_of(model: EndpointBrain | None, settings: Settings) -> Brain:
     """Return who plans: the model with the built-in rules behind it, or these alone."""
     if model is None or settings.model is None:
-        return OfflineBrain()
+        return OfflineBrain(servers=tuple(settings.tools))
     return FallbackBrain(model, OfflineBrain(), rest_s=settings.model.rest_s)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from datetime import datetime
 
@@ -10,8 +11,19 @@ from planner.brain.streamed_draft import Hear
 from planner.language.catalogue import join, message, say
 from planner.language.grammar.context import Context
 from planner.language.readers import OrderWords, read_order
+from planner.language.schedule import asks_about_day
 from planner.language.sentence import parse
-from planner.plan import AnswerPlan, Bilingual, BrainTag, Clarify, Code, Plan, Refuse, StepPlan
+from planner.plan import (
+    AnswerPlan,
+    Bilingual,
+    BrainTag,
+    Clarify,
+    Code,
+    Plan,
+    Refuse,
+    StepPlan,
+    say_same,
+)
 
 VERSION = "2"
 TAG = BrainTag(name=OFFLINE, version=VERSION)
@@ -22,10 +34,15 @@ def _read_clock() -> datetime:
 
 
 class OfflineBrain:
-    """Plan by grammar, in this process and without a model. `clock` tells the time of day."""
+    """Plan by grammar, in this process and without a model. `clock` tells the time of day.
 
-    def __init__(self, clock: Callable[[], datetime] = _read_clock) -> None:
-        self._clock = clock
+    `servers` are the owner's tool servers, where no model is there to ask them: it is then told.
+    """
+
+    def __init__(
+        self, clock: Callable[[], datetime] = _read_clock, servers: Sequence[str] = ()
+    ) -> None:
+        self._clock, self._servers = clock, tuple(servers)
 
     @property
     def tag(self) -> BrainTag:
@@ -38,9 +55,22 @@ class OfflineBrain:
         if changed is not None and changed.steps:
             made: Plan = StepPlan(steps=changed.steps)
         else:
-            made = read_order(self._words_of(request)).plan
+            made = self._or_tools(request.text, read_order(self._words_of(request)).plan)
         rest = rest_of(made, request.observed)
         return ThinkResult(plan=rest, brain=TAG, by_grammar=True)
+
+    def _or_tools(self, text: str, made: Plan) -> Plan:
+        """Return a plan, or that tools need a model where only they could answer.
+
+        That is a question about a day, or one with a server's name, which the grammar can't answer.
+        """
+        if not self._servers or isinstance(made, StepPlan | AnswerPlan):
+            return made
+        named = any(re.search(rf"\b{name}\b", text.lower(), re.ASCII) for name in self._servers)
+        if not (named or asks_about_day(text)):
+            return made
+        told = message(Code.TOOLS_NEED_MODEL, servers=say_same(", ".join(self._servers)))
+        return Refuse(code=Code.TOOLS_NEED_MODEL, reason=told)
 
     def _words_of(self, request: ThinkRequest) -> OrderWords:
         words = request.text if request.changed is None else request.changed.words

@@ -36,6 +36,7 @@ class Code(StrEnum):
     OBJECT_UNKNOWN = "object_unknown"
     UNSAFE = "unsafe"
     BAD_PLAN = "bad_plan"
+    TOOLS_NEED_MODEL = "tools_need_model"
     MODEL_UNAVAILABLE = "model_unavailable"
     NOT_ARMED = "not_armed"
     PLACE_NOT_KEPT = "place_not_kept"

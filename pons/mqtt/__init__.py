@@ -10,6 +10,7 @@ import os
 import signal
 import sys
 import tomllib
+from threading import Timer
 from typing import TYPE_CHECKING
 
 from pons.extras import tell_missing
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 EXIT_DONE, EXIT_UNUSABLE = 0, 2
+FAREWELL_S = 2.0
+"""A broker that answers nothing held the end up for 10 s and more."""
 SETTINGS_FILE = "settings.toml"
 NO_TABLE = (
     "mqtt_unset: {} has no [mqtt] table; docs/smart-home.md shows one",
@@ -60,9 +63,17 @@ def run(settings: LaunchSettings) -> int:
         async def serve() -> None:
             gateway = HomeGateway(settings, chosen, robot.id, has_camera=has_camera)
             task = asyncio.current_task()
-            for number in (signal.SIGTERM, signal.SIGINT):
+
+            def end() -> None:
+                """Say that the robot goes; nobody who does not hear it is waited for long."""
+                bound = Timer(FAREWELL_S, leave, (EXIT_DONE,))
+                bound.daemon = True
+                bound.start()
                 if task is not None:
-                    asyncio.get_running_loop().add_signal_handler(number, task.cancel)
+                    task.cancel()
+
+            for number in (signal.SIGTERM, signal.SIGINT):
+                asyncio.get_running_loop().add_signal_handler(number, end)
             try:
                 await gateway.run()
             except asyncio.CancelledError:

@@ -9,9 +9,18 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.e2e.system import System, new_home
+from tests.planner.tool_servers.servers import calendar_server, free_port
 
 pytestmark = pytest.mark.e2e
 
+SERVERS = """
+[tools.calendar]
+url = "{here}"
+may_write = ["add_event"]
+
+[tools.mail]
+url = "http://127.0.0.1:{gone}/mcp"
+"""
 TELEPHONE = {"width": 390, "height": 844}
 
 
@@ -20,9 +29,10 @@ def field(page: Page, name: str) -> str:
 
 
 def test_settings_are_saved_and_in_force_and_a_wizard_leads_to_set_up(browser: Browser) -> None:
-    with new_home() as folder:
+    with new_home() as folder, calendar_server() as tools:
         home = Path(folder)
-        (home / "settings.toml").write_text("# by hand\n[orders]\n", "utf-8")
+        (home / "settings.toml").write_text("# by hand\n[orders]\n" + SERVERS.format(
+            here=tools, gone=free_port()), "utf-8")  # fmt: skip
         system = System(home)
         with system.running():
             context = browser.new_context(viewport=TELEPHONE, locale="en-US")  # type: ignore[arg-type]
@@ -32,10 +42,23 @@ def test_settings_are_saved_and_in_force_and_a_wizard_leads_to_set_up(browser: B
             page.set_default_timeout(30_000)
             page.goto(f"http://127.0.0.1:{system.port}")
             page.click("#tab-settings")
+            see_tool_servers(page)
             save_settings(page, home)
             become_a_robot_of_ones_own(page, home)
             assert complaints == []
             context.close()
+
+
+def see_tool_servers(page: Page) -> None:
+    tools = page.locator("#tools")
+    expect(tools).to_contain_text("set a model")
+    here = tools.locator("[data-server=calendar]")
+    expect(here).to_contain_text("Only reads: events, stop, broken")
+    expect(here).to_contain_text("May write, after your yes to each call: add_event")
+    expect(here.locator("[data-left-out=tool_unmarked]")).to_contain_text("unmarked")
+    expect(here).to_contain_text("0 of 200 calls today")
+    gone = tools.locator("[data-server=mail]")
+    expect(gone).to_have_attribute("data-problem", "unreachable")
 
 
 def save_settings(page: Page, home: Path) -> None:

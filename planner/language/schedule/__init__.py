@@ -17,7 +17,7 @@ from planner.language.schedule.command import (
     ScheduleCommand,
     can_lean,
 )
-from planner.language.schedule.reader import read_order_command
+from planner.language.schedule.reader import asks_about_day, read_order_command
 from planner.language.schedule.time_finder import split_time
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "RemindAgain",
     "Retime",
     "ScheduleCommand",
+    "asks_about_day",
     "can_lean",
     "read_order_command",
     "split_time",

@@ -142,6 +142,14 @@ ASKS = re.compile(
     r"|have (?:you|i|we)|has|had|when (?:did|do|does|is|was|will|are))\b|(?:if|unless|whether)\b"
 )
 """A question, or a condition that is no event."""
+QUESTION = re.compile(
+    rf"{ASKS.pattern}|(?:will|shall|should|could|can|would|may|must|am|have|any\w*)\b(?! you\b)"
+)
+"""What asks about a day that stands beside it: no deed is put off to that day."""
+TELL = re.compile(
+    r"(?:tell|show|read|let) (?:me|us)(?: know)? (?:(?:what|who|where|why|how|which|when|if|whether)\b|.* for$)"
+)
+"""What asks about the day that stands behind it."""
 REMARK = re.compile(
     r"(?:not (?:the|my|our|at|in)|see (?:you|ya)|(?:talk|speak|chat) to you"
     r"|it(?:'s| is| was| looks| feels| smells)|is|was|were|i(?:'m| am| was| feel| had)"

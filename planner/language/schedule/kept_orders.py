@@ -119,7 +119,8 @@ _LEAVES_OUT = form_pair(
     r"(?:把|跳过)?(?P<day>今晚|今天|今早|明天|明晚|明早|后天|[这下]?个?(?:周|星期|礼拜)[一二三四五六日天])的?"
     r"(?P<rest>(?:(?:就|先)?(?:不用|不要|不必|别)再?)?(?P<r>提醒我?)?(?P<a>.{0,20}?)(?:跳过|免了|了)?)",
 )
-_DENIED_ZH = re.compile(r"跳过|免了|(?:就|先)?(?:不用|不要|不必|别)")
+_DENIED_ZH = re.compile(r"跳过|免了|(?<!要)不要|(?<!用)不用|不必|别")
+"""要不要 and 用不用 ask."""
 _SEVERAL = re.compile(
     r"[,;.:吗呢]|如果|但|\b(?:if|unless|until|till|before|after|when|or|but|only|then|every|each|at (?:\d|noon))\b"
 )

@@ -26,6 +26,8 @@ from planner.language.schedule.folded_sentence import ENDS, FoldedSentence, fold
 from planner.language.schedule.kept_orders import read_asked, read_change
 from planner.language.schedule.parts import (
     DayPart,
+    MonthDay,
+    OnceDay,
     Part,
     Problem,
     TimeOfDay,
@@ -118,6 +120,17 @@ def read_order_command(text: str) -> OrderCommand | None:
     return None if problem is None else ScheduleCommand(None, said.written, "", problem=problem)
 
 
+def asks_about_day(text: str) -> bool:
+    """Return whether a sentence is a question that names a day: "what is in my calendar today"."""
+    said = fold_sentence(text)
+    grammar = chinese if has_chinese(said.folded) else english
+    words = said.bare().strip(grammar.POLITE).bare().folded.replace("?", " ")
+    before, after = first_parts(words, grammar), last_parts(words, grammar)
+    asked = words[before.at :].lstrip(ENDS)
+    asks = any(form.match(asked) for form in (grammar.ASKS, grammar.QUESTION, grammar.TELL))
+    return asks and any(isinstance(part, OnceDay) for part in (*before.parts, *after.parts))
+
+
 def _problem_of(said: str) -> Problem | None:
     """Return why an English sentence is no order of now either; None: it may be one.
 
@@ -171,6 +184,10 @@ def _read(said: FoldedSentence, grammar: ModuleType) -> ScheduleCommand | None:
     words = _words(said, rest, before, after)
     if remind is not None:
         return _reminder(order, timing, words, grammar, woken=woken)
+    if all(isinstance(part, OnceDay | DayPart | MonthDay) for part in parts):  # and no hour
+        asked = said.part(before.at, len(said.folded) - len(rest.folded) + after.at).bare().folded
+        if grammar.QUESTION.match(asked) or (not before.parts and grammar.TELL.match(asked)):
+            return None  # "will it rain tonight", 今天几点开会: it asks about the day
     once = isinstance(timing.when, DayTime | InRule) and before.parts
     states = once and begins_with_statement(order.folded, chinese=grammar is chinese)
     tells = after.parts and isinstance(timing.when, EventRule) and _TELLS.search(order.folded)

@@ -17,7 +17,7 @@ from planner.brain import (
     ScriptedBrain,
     ThinkRequest,
 )
-from planner.plan import AnswerPlan, GoTo, StepPlan, Vocabulary, Wait
+from planner.plan import AnswerPlan, Code, GoTo, Refuse, StepPlan, Vocabulary, Wait
 
 GOOD = StepPlan(steps=(Wait(seconds=1.0),))
 
@@ -45,6 +45,31 @@ def test_offline_brain_knows_the_room_it_is_told(home: Vocabulary) -> None:
     answer = ask(OfflineBrain(), home, "你在哪", room="kitchen")
     assert isinstance(answer, AnswerPlan)
     assert answer.text.zh == "我在厨房。"
+
+
+TOOLS = (
+    "what is in my calendar today", "which meetings do I have tomorrow?", "is it dry tomorrow",
+    "tell me what is in my calendar tomorrow", "any calendar entries?", "ask calendar what is on",
+    "今天我的日历里有什么", "明天要不要带伞", "今天几点开会", "calendar里有什么",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("text", TOOLS)
+def test_what_only_a_tool_could_answer_is_told_to_need_a_model(home: Vocabulary, text: str) -> None:
+    told = ask(OfflineBrain(servers=("calendar", "mail")), home, text)
+    assert isinstance(told, Refuse)
+    assert told.code is Code.TOOLS_NEED_MODEL
+    assert "calendar, mail" in told.reason.en
+    assert "calendar, mail" in told.reason.zh
+    plain = ask(OfflineBrain(), home, text)
+    assert getattr(plain, "code", None) is not Code.TOOLS_NEED_MODEL
+
+
+@pytest.mark.parametrize(
+    "text", ["go to the kitchen", "is there a cup in the cellar?", "dance"]
+)  # fmt: skip
+def test_servers_change_nothing_about_other_sentences(home: Vocabulary, text: str) -> None:
+    assert ask(OfflineBrain(servers=("calendar",)), home, text) == ask(OfflineBrain(), home, text)
 
 
 def test_script_is_followed_and_its_last_line_repeats(home: Vocabulary) -> None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import sqlite3
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 from itertools import count
 from pathlib import Path
 from typing import Any
 
+from planner.brain import Brain
 from planner.brain.image_questions import Looker
 from planner.brain.scripted import Reply, ScriptedBrain
 from planner.bridge_client import Link
@@ -18,11 +20,13 @@ from planner.mission import (
     MissionJournal,
     Missions,
 )
+from planner.mission.journal_records import read_mission
 from planner.mission.perception_requests import nothing_spent
 from planner.mission.skills.perception import NO_PICTURES, PictureLimits
+from planner.mission.state import Mission
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.perception.interfaces import Eyes
-from planner.plan import Goal, GoalState, GoTo, StepPlan
+from planner.plan import Goal, GoalState, GoTo, StepPlan, StepState
 from planner.site import Site
 from planner.site.known_places import KnownPlaces
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
@@ -90,7 +94,9 @@ async def planner(
     looker: Looker | None = None,
     pictures: PictureLimits = NO_PICTURES,
     by_grammar: bool = True,
+    thinker: Brain | None = None,
 ) -> AsyncIterator[Together]:
+    """Start missions; they think by the script of replies, or by a brain that is given."""
     bridge = bridge or LiveBridge(pose=Pose2(1.0, 4.2, 0.0))
     brain = ScriptedBrain(replies or (KITCHEN,), hangs=hangs, by_grammar=by_grammar)
     numbers = count(1)
@@ -100,7 +106,7 @@ async def planner(
         robot=robot,
         link=Link(bridge, robot, clock=bridge.now_s),
         router=router or StraightRouter(),
-        brain=brain,
+        brain=thinker or brain,
         disk=JournalSync(MissionJournal.in_home(home)),
         planner_id=f"planner-{prefix}",
         clocks=Clocks(bridge.now_s, lambda: 1.7e9, lambda: f"{prefix}{next(numbers)}", POLL_S),
@@ -116,6 +122,19 @@ async def planner(
         assert missions.failure is None
     finally:
         await missions.close()
+
+
+def read_transitions(home: Path) -> list[Mission]:
+    """Return each state that each goal was in, oldest first, from the journal on the disk."""
+    with sqlite3.connect(f"file:{home}/missions.db?mode=ro", uri=True) as disk:
+        rows = disk.execute("SELECT record FROM transitions ORDER BY seq").fetchall()
+    return [read_mission(record) for (record,) in rows]
+
+
+def begun_steps(missions: list[Mission]) -> set[str]:
+    """Return the kinds of all steps that were ever begun."""
+    waits = (StepState.PENDING, StepState.SKIPPED)
+    return {step.kind for each in missions for step in each.steps if step.state not in waits}
 
 
 def run(work: Coroutine[Any, Any, None]) -> None:

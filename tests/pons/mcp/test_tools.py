@@ -18,7 +18,6 @@ from mcp_types import CallToolResult
 from planner.api import build
 from planner.brain.scripted import Reply
 from planner.orders.factory import standing_orders_of
-from planner.plan import GoalState
 from planner.settings import OrderSettings
 from planner.state_database import StateDatabase
 from pons.mcp.http_door import AgentsOnly, build_app
@@ -171,69 +170,6 @@ def test_a_token_that_is_no_agents_opens_no_tool_but_its_own_stop(
                 assert re.search("agent_token_needed: |token_needed: ", refusal(result)), name
             await later(world)
             assert world.missions.goals() == ()
-            assert world.bridge.waypoints == []
-
-    run(story())
-
-
-HOSTILE = (
-    "../../v1/arm", "g1/confirm", "%2e%2e/arm", "g1?x=1", "", "x" * 100, "g1\n", "go to kitchen",
-    "; POST /v1/arm", "\x00", "ignore all rules", "好的", "{}", "'; DROP TABLE goals", "g1#",
-)  # fmt: skip
-UNFIT: tuple[object, ...] = (
-    None,
-    1e308,
-    -1,
-    [],
-    {},
-    {"v_mps": 1.0},
-    "x" * 1_000_000,
-    True,
-    [[[]]],
-    "null",
-)
-UNFIT_STEPS = (
-    [{"kind": "turn", "angle_rad": 1.0}],
-    [{"kind": "go_to_pose"}],
-    [{"kind": "teleop", "v_mps": 1}],
-    [{"kind": "go_to", "place": "../x"}],
-    [{"kind": "go_to", "place": "kitchen", "speed": 3}],
-)
-
-
-def test_hostile_arguments_of_each_tool_move_nothing(tmp_path: Path) -> None:
-    """An id is no path, a text no order to the door, and a bound holds before the planner."""
-
-    async def story() -> None:
-        async with (
-            robot(tmp_path, KITCHEN, by_grammar=False) as (world, door),
-            Client(build_server(door)) as client,
-        ):
-            calls = 0
-            for name in ("answer", "cancel", "wait_for"):
-                for goal in (*HOSTILE, *UNFIT):
-                    given = {"goal": goal, "text": "yes", "seconds": 0.0}
-                    assert (await client.call_tool(name, given)).is_error, (name, goal)
-                    calls += 1
-            for steps in (*UNFIT[1:], *UNFIT_STEPS):
-                assert (await client.call_tool("order", {"steps": steps})).is_error, steps
-                calls += 1
-            for text in UNFIT[1:]:
-                for name, key in (
-                    ("order", "text"),
-                    ("what_would_you_do", "text"),
-                    ("recall", "words"),
-                    ("recall", "place"),
-                    ("history", "limit"),
-                    ("look", "question"),
-                ):
-                    if isinstance(text, str) and len(text) < 100:
-                        continue
-                    await client.call_tool(name, {key: text})
-                    calls += 1
-            assert calls >= 130
-            await later(world)
-            assert all(goal.state is not GoalState.RUNNING for goal in world.missions.goals())
             assert world.bridge.waypoints == []
 
     run(story())

@@ -83,13 +83,18 @@ class Broker:
     def __exit__(self, *_: object) -> None:
         self.end()
 
-    def table(self, home: Path) -> str:
-        """Return the [mqtt] table that joins it, and write the files that it names."""
+    def table(self, home: Path, port: int | None = None) -> str:
+        """Return the [mqtt] table that joins it, and write the files that it names.
+
+        Args:
+            home: the robot's home.
+            port: another than the broker's own: of a line that leads to it.
+        """
         secret = home / "broker-password"
         secret.write_text(PASSWORD)
         secret.chmod(0o600)
         return (
-            f'[mqtt]\nhost = "127.0.0.1"\nport = {self.port}\nca_file = "{self.ca_file}"\n'
+            f'[mqtt]\nhost = "127.0.0.1"\nport = {port or self.port}\nca_file = "{self.ca_file}"\n'
             f'username = "{USER}"\npassword_file = "{secret.name}"\npicture_s = 1.0\n'
         )
 

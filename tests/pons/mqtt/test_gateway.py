@@ -10,6 +10,7 @@ import sys
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -19,6 +20,7 @@ import pytest
 from pons.robot_processes import free_port
 from pons.settings import CHECKOUT
 from tests.pons.mqtt.broker import PASSWORD, USER, Broker
+from tests.pons.mqtt.slow_line import SlowLine
 from tests.pons.standing_bridge import StandingBridge
 
 LIMIT_S = 30.0
@@ -98,11 +100,11 @@ class Joined:
 
 
 @contextmanager
-def joined_home(broker: Broker, log: Path) -> Iterator[Joined]:
+def joined_home(broker: Broker, log: Path, port: int | None = None) -> Iterator[Joined]:
     """Start a gateway beside a bridge, in a home of their own."""
     with TemporaryDirectory(prefix="pons-mqtt-") as name:
         home = Path(name)
-        (home / "settings.toml").write_text(broker.table(home))
+        (home / "settings.toml").write_text(broker.table(home, port))
         words = ["--home", name, "--robot", str(CHECKOUT / "robot.toml"), "--site", name]
         words += ["--host", "127.0.0.1", "--port", str(free_port())]
         with StandingBridge(home, ROBOT) as bridge, log.open("wb") as written:
@@ -217,3 +219,31 @@ def test_a_gateway_that_dies_is_told_by_its_will(tmp_path: Path) -> None:
 
     with Broker(tmp_path) as broker, joined_home(broker, tmp_path / "gateway.log") as made:
         made.told(story)
+
+
+def test_a_broker_that_is_slow_replays_an_hour_of_orders_or_answers_nothing(
+    tmp_path: Path,
+) -> None:
+    async def stop_and_replay(ears: Ears) -> None:
+        await ears.client.publish(f"pons/{ROBOT}/stop", b"PRESS", qos=1)
+        await until(lambda: made.stops() > 0, made.log.read_text())
+        line.late_s, line.is_shut = 0.0, True
+        for number in range(360):
+            payload = f"go to room {number}".encode()
+            await ears.client.publish(f"pons/{ROBOT}/sentence", payload, qos=1)
+        line.is_shut = False  # all that the broker kept back comes at once
+        await ears.until_told("mqtt_burst")
+        await asyncio.sleep(1.0)  # longer than an order waits for others
+        told = [event.get("code") for event in ears.events]
+        assert "planner_down" not in told, "an order of the burst was given"
+
+    with Broker(tmp_path) as broker, SlowLine(broker.port) as line:
+        line.late_s = 1.0
+        with joined_home(broker, tmp_path / "gateway.log", line.port) as made:
+            made.told(stop_and_replay)
+            assert made.bridge.asked == ["cmd/stop"]
+            line.is_shut = True  # it takes everything, and acknowledges nothing
+            told = partial(made.log.read_text, "utf-8")
+            asyncio.run(until(lambda: "mqtt_down" in told(), "what became of the broker"))
+            made.process.terminate()
+            assert made.process.wait(timeout=10) == 0

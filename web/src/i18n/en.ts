@@ -744,6 +744,15 @@ export const en = {
   "skills.kind.words": "any words",
   "skills.kind.number": "a number",
   "skills.kind.duration": "a time, such as 5 minutes",
+  "tools.title": "Tool servers",
+  "tools.how":
+    "Servers of yours that a model may ask, from [tools.NAME] in settings.toml. What they answer is told and moves nothing.",
+  "tools.reached": "reached",
+  "tools.reads": "Only reads: {names}",
+  "tools.writes": "May write, after your yes to each call: {names}",
+  "tools.left_out": "Not offered: {name}. {why}",
+  "tools.calls": "{made} of {most} calls today",
+  "tools.uncounted": "Today's calls can't be read.",
 
   "people.title": "People",
   "people.about":

@@ -733,6 +733,15 @@ export const zh: Record<Key, string> = {
   "skills.kind.words": "任意文字",
   "skills.kind.number": "数字",
   "skills.kind.duration": "时长，例如 5 分钟",
+  "tools.title": "工具服务器",
+  "tools.how":
+    "您的服务器，模型可以询问，写在 settings.toml 的 [tools.NAME] 中。它们的回答只会被转述，不会让机器人移动。",
+  "tools.reached": "已连接",
+  "tools.reads": "只读：{names}",
+  "tools.writes": "可写，每次调用都要您同意：{names}",
+  "tools.left_out": "不提供：{name}。{why}",
+  "tools.calls": "今天已调用 {made} 次，最多 {most} 次",
+  "tools.uncounted": "无法读取今天的调用次数。",
 
   "people.title": "人员",
   "people.about": "每个人或每部手机都有自己的链接，这样可以知道是谁停下了机器人，也可以收回。",

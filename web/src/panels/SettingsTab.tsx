@@ -25,6 +25,7 @@ import {
 import { isOwner } from "../state/asker";
 import { inSetup } from "../state/trial";
 import { toTeaching } from "./Tabs";
+import { ToolsPanel } from "./ToolsPanel";
 import { Wizard } from "./Wizard";
 
 export function SettingsTab() {
@@ -48,6 +49,7 @@ export function SettingsTab() {
       )}
       {(isPending.value || isRestarting.value) && <NextStart />}
       {now !== null && GROUPS.map((group) => <GroupCard key={group} group={group} />)}
+      {now !== null && <ToolsPanel />}
       {now !== null && <Places />}
       {!inSetup.value && isOwner.value !== false && <Wizard />}
     </>
