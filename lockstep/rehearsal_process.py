@@ -9,10 +9,12 @@ from __future__ import annotations
 import gc
 import resource
 from time import monotonic
+from typing import TYPE_CHECKING
 
-from lockstep.rehearsal_drive import RehearsalDrive
-from planner.driven_rehearsal import DriveRequest
 from processes.worker_main import ParentPipes, run_worker
+
+if TYPE_CHECKING:
+    from lockstep.rehearsal_drive import RehearsalDrive
 
 MOST_BYTES = 2 << 30
 """Of data; a home takes a tenth of it."""
@@ -25,12 +27,15 @@ def main(parent: ParentPipes) -> int:
     """Drive what is asked, and tell of it until it is over."""
     resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, MOST_BYTES))
     resource.setrlimit(resource.RLIMIT_CPU, (MOST_CPU_S, MOST_CPU_S))
+    gc.disable()  # first: looks for garbage are a tenth of what loading the planner takes
+    from lockstep.rehearsal_drive import RehearsalDrive
+    from planner.driven_rehearsal import DriveRequest
+
     asked = parent.read()
     if asked is None:
         return 0
     drive = RehearsalDrive(DriveRequest.model_validate(asked[0]), asked[1])
     gc.freeze()  # what is loaded stays; what a tick makes goes by its counts
-    gc.disable()
     told_s = monotonic()
     for _ in drive.turns():
         if monotonic() - told_s >= TELL_S:

@@ -65,8 +65,9 @@ def children(
     issued: IssuedCertificate | None = None,
 ) -> list[Child]:
     """Return the processes in the order of their start."""
-    logs, world, canvas = settings.home / "logs", common_arguments(settings), settings.canvas
-    common = world if canvas is None else common_arguments(replace(settings, site=canvas))
+    logs, canvas = settings.home / "logs", settings.canvas
+    world = common_arguments(replace(settings, site=settings.world or settings.site))
+    common = common_arguments(replace(settings, site=canvas or settings.site))
     maps = [] if canvas is None else ["--mapping"]
     domain = ["--domain", settings.domain] if settings.domain else []
     line, lidar_line = settings.home / "twin" / "drive", settings.home / "twin" / "lidar"

@@ -32,7 +32,7 @@ def choose_domain(settings: LaunchSettings) -> Domain:
     """
     if settings.domain == RANDOM:
         seed = secrets.randbelow(_SEEDS) if settings.seed is None else settings.seed
-        return draw_domain(seed, declared=is_declared(settings.site))
+        return draw_domain(seed, declared=is_declared(settings.world or settings.site))
     if settings.domain is None:
         return Domain()
     domain = load_domain(Path(settings.domain))

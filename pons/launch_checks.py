@@ -115,7 +115,10 @@ def change_map(settings: LaunchSettings) -> tuple[LaunchSettings, RobotDescripti
     if settings.mapping is not None:
         site = settings.home / "sites" / settings.mapping
         changed = replace(changed, mapping=None, site=site)
-    return changed, check(changed)
+    robot = check(changed)
+    if robot.localization.kind == "scans":  # a stand-in knows the simulator's own places alone
+        changed = replace(changed, world=settings.world or settings.site)
+    return changed, robot
 
 
 def in_chinese(why: Exception) -> str:

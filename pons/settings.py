@@ -46,6 +46,8 @@ class LaunchSettings:
     mapping: str | None = None
     """Of the site that is being mapped; its canvas takes the site's place for all but the simulator
     (docs/mapping.md)."""
+    world: Path | None = None
+    """The site that the simulator plays, where it is not ``site``: saving a map changes no home."""
     set_up: bool = False
     """Whether to begin in set-up, though the robot was tried (docs/robot-try.md)."""
     tls: bool = False

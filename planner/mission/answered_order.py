@@ -1,7 +1,8 @@
 """Say what a goal's order is once a person has answered the grammar's question about it. Pure.
 
 Law: only what the grammar asked is completed here; a model reads the answer beside its question.
-"She's in the study" completes an order that speaks of one person, whom it fits, and of no place.
+"She's in the study" completes an order that speaks of one person, whom it fits, and of no place;
+"the kitchen" stands in for the one place of an order that nobody knows.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from planner.plan import Change
     from planner.site.site_view import SiteView
 
+_QUOTED = re.compile("“([^”]+)”")
+"""A question about an unknown place tells its name first."""
+
 
 def complete_order(facts: SiteView, asking: Mission, answer: str) -> str:
     """Return the order that an answer agrees to, chooses or completes.
@@ -34,9 +38,29 @@ def complete_order(facts: SiteView, asking: Mission, answer: str) -> str:
     chosen = offered or find_choice(asking, answer)
     if chosen is not None or asking.brain is None or asking.brain.name != OFFLINE:
         return chosen or answer
-    places = [each for each in read_changes(answer, facts.names) if each.act is Edit.WHERE]
-    completed = (complete_person(place, asking, facts) for place in places)
-    return next((order for order in completed if order is not None), answer)
+    changes = read_changes(answer, facts.names)
+    named = [complete_place(each, asking, facts) for each in changes]
+    placed = [complete_person(each, asking, facts) for each in changes if each.act is Edit.WHERE]
+    return next((order for order in (*named, *placed) if order is not None), answer)
+
+
+def complete_place(change: Change, asked: Mission, facts: SiteView) -> str | None:
+    """Return "go to the kitchen …" of "go to the garage …"; None where another thing is asked."""
+    plan, place, order = asked.plan, change.inner or change.place, asked.order_text
+    if plan is None or plan.code is not Code.UNKNOWN_PLACE or plan.text is None or place is None:
+        return None
+    unknown = _QUOTED.search(plan.text.en)
+    if unknown is None or change.act not in (Edit.WHERE, Edit.INSTEAD) or change.asks:
+        return None
+    name, words = facts.targets[place].name, re.escape(unknown[1])
+    if has_chinese(order):
+        found, said = re.findall(words, order), name.zh
+    else:
+        words = rf"\b(?:(?:the|my|our|your) )?{words}\b"
+        found, said = re.findall(words, order, re.IGNORECASE), f"the {name.en}"
+    if len(found) != 1:
+        return None
+    return re.sub(words, lambda _: said, order, flags=re.IGNORECASE)
 
 
 def complete_person(change: Change, asked: Mission, facts: SiteView) -> str | None:

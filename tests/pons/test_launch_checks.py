@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from maps import SiteError
-from pons.launch_checks import CannotStart, check, in_chinese, site_flaw
+from pons.children import children
+from pons.launch_checks import CannotStart, change_map, check, in_chinese, site_flaw
 from pons.settings import CHECKOUT, LaunchSettings
 
 
@@ -81,3 +82,20 @@ def test_a_refusal_that_speaks_chinese_is_told_so(monkeypatch: pytest.MonkeyPatc
     assert in_chinese(CannotStart("full", "满了")) == "\n满了"
     assert in_chinese(CannotStart("full")) == ""
     assert in_chinese(OSError("full")) == ""
+
+
+@pytest.mark.parametrize("localizes", ["scans", "stand_in"])
+def test_saving_a_map_changes_no_simulated_home(
+    settings: LaunchSettings, tmp_path: Path, localizes: str
+) -> None:
+    (described := tmp_path / "robot.toml").write_text(f'[localization]\nkind = "{localizes}"\n')
+    shutil.copytree(settings.site, saved := tmp_path / "sites" / "home")
+    maps, _ = change_map(replace(settings, robot=described))
+    assert (maps.mapping, maps.site) == ("home", settings.site)
+    drives, robot = change_map(maps)
+    told = {each.name: each.arguments for each in children(drives, robot)}
+    site = {name: Path(words[words.index("--site") + 1]) for name, words in told.items()}
+    played = settings.site if localizes == "scans" else saved
+    assert site == {"sim": played, "camera": played} | dict.fromkeys(
+        ("localization", "bridge", "planner"), saved
+    )

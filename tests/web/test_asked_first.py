@@ -28,23 +28,20 @@ pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 SIZES = ((390, 844), (1024, 768), (1440, 900))
 LOCALES = ("en-US", "zh-CN")
 THEMES = ("light", "dark")
-LENGTHY = frozenset({"asks at length"})
-"""Of these the beginning must be in view; the card scrolls."""
 READY = ("Ready", "Standing still", "就绪", "静止")
 
 PATIENCE_MS = 60_000
 
-IN_VIEW = """(lengthy) => {
+IN_VIEW = """() => {
   const words = document.querySelector("#asked .question-words");
   if (words === null) return "no question";
   const answer = document.querySelector("#asked .clarify button");
   const stop = document.querySelector(".stopbar").getBoundingClientRect().top;
-  for (const one of lengthy ? [words] : [words, answer]) {
-    const box = one.getBoundingClientRect();
-    const bottom = lengthy ? box.top + 20 : box.bottom;
-    if (box.top < 0 || bottom > stop) return `${one.className} ${box.top} to ${bottom} of ${stop}`;
-    for (const y of [box.top + 3, bottom - 3]) {
-      const there = document.elementFromPoint(box.left + 6, y);
+  for (const one of [words, answer]) {
+    const { top, bottom, left } = one.getBoundingClientRect();
+    if (top < 0 || bottom > stop) return `${one.className} ${top} to ${bottom} of ${stop}`;
+    for (const y of [top + 3, bottom - 3]) {
+      const there = document.elementFromPoint(left + 6, y);
       if (!one.contains(there)) return `${one.className} is under ${there?.className}`;
     }
   }
@@ -134,7 +131,7 @@ def hidden(page: Page, told: Told, name: str) -> list[str]:
     told.tell(told.put(name))
     page.locator("#asked .question-words").wait_for()
     page.evaluate("scrollTo(0, 0)")
-    wrong: list[str] = [page.evaluate(IN_VIEW, name in LENGTHY)]
+    wrong: list[str] = [page.evaluate(IN_VIEW)]
     told.tell(told.put(name))  # fresh again, however long that took
     words = [page.inner_text("#mode"), page.inner_text(".motion")]
     wrong += [f"says {each!r}" for each in words if each.startswith(READY)]
@@ -170,7 +167,7 @@ def test_a_question_stays_in_view_while_nobody_is_heard(opened: Open) -> None:
         told.tell(told.put("calm"))
         page.locator("#asked").wait_for()
         page.locator("#lost[data-why=planner]").wait_for()
-        assert page.evaluate(IN_VIEW, False) == ""
+        assert page.evaluate(IN_VIEW) == ""
         assert page.inner_text("#mode") == "No contact"
         assert page.locator("#asked.stale").count() == 1
 

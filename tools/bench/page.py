@@ -122,7 +122,7 @@ def answer_a_question(person: Newcomer) -> None:
     """Answer what the robot asks in words of one's own: it names what it knows, and offers none."""
     person.read("I know no place called")
     person.steps += 1
-    person.page.get_by_role("textbox", name="Answer in your own words").first.fill(ANSWER)
+    person.page.get_by_role("textbox", name="Your answer").first.fill(ANSWER)
     person.press("button", "Answer")
     person.page.locator("#asked .clarify").first.wait_for(state="detached")
 

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { arrowheads, discs, dots, squares } from "../src/map/drawing";
 import { Cells, nameSpot } from "../src/map/cells";
 import { pixels, rgb, tinted } from "../src/map/raster";
-import { contains, middle, resolve, thingAt, unwound } from "../src/map/resolve";
+import { atOneSpot, contains, middle, resolve, thingAt, unwound } from "../src/map/resolve";
 import type { Grid, Place } from "../src/wire/types";
 import { cup } from "./examples";
 
@@ -168,5 +168,25 @@ describe("where it might be", () => {
   it("is drawn once for each candidate, and not at all without", () => {
     expect(arrowheads([guess(0), guess(1), guess(2)]).match(/Z/g)).toHaveLength(3);
     expect(arrowheads([])).toBe("");
+  });
+});
+
+describe("robots at one spot", () => {
+  const at = (id: string, x_m: number, radius = 0.2) => ({
+    id,
+    pose: { x_m, y_m: 0, yaw_rad: 0 },
+    radius,
+  });
+  const names = (...bodies: ReturnType<typeof at>[]) =>
+    atOneSpot(bodies).map((group) => group.map(({ id }) => id));
+
+  it("share a plate where one stands over another's middle, and none else", () => {
+    expect(names(at("a", 0), at("b", 0.1), at("c", 0.2), at("d", 3))).toEqual([
+      ["a", "b"],
+      ["c"],
+      ["d"],
+    ]);
+    expect(names(at("a", Number.NaN), at("b", 0))).toEqual([["a"], ["b"]]);
+    expect(names()).toEqual([]);
   });
 });

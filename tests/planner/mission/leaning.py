@@ -27,6 +27,7 @@ NAMES = FACTS.names
 NOW_S = 1000.0
 _CLASSES = ("person", "cup", "bottle", "chair", "backpack", "book", "ball", "cat")
 _EYES = Eyesight(CameraConfig(), _CLASSES)
+INCOMPLETE = Clarify(code=Code.INCOMPLETE, question=say("question.yes_or_no"))
 _MEANS = Means(camera=True, detector=True)
 
 
@@ -45,11 +46,10 @@ def order_done(text: str, *steps: Any) -> MissionState:
     return MissionState(FACTS, eyes=_EYES, sight=Sight(), missions={"g0": done}, order=1)
 
 
-def order_asked_about(text: str) -> MissionState:
-    """Return the book while the grammar asks what is missing in this order."""
+def order_asked_about(text: str, asks: Clarify = INCOMPLETE) -> MissionState:
+    """Return the book while the grammar asks this about an order."""
     book = MissionState(FACTS, eyes=_EYES, sight=Sight())
     book, _ = advance(book, Submitted("g0", text, parse(text).language), NOW_S)
-    asks = Clarify(code=Code.INCOMPLETE, question=say("question.yes_or_no"))
     return advance(book, Planned("g0", asks, None, OfflineBrain().tag), NOW_S)[0]
 
 

@@ -15,7 +15,7 @@ export function Questions() {
       {asking.value.map((one) => (
         <section key={one.id} class="card asked" data-asks={one.id} aria-labelledby={`q-${one.id}`}>
           <h2 id={`q-${one.id}`}>{ft("asks.title", { name: one.robot ?? "?" })}</h2>
-          <p class="said" dir="auto">
+          <p class="said clip-3" dir="auto">
             {one.text}
           </p>
           <Question one={one} />

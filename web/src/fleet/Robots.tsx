@@ -78,7 +78,11 @@ function One({ robot }: { robot: Robot }) {
           {facts.join(" · ")}
         </p>
       )}
-      {does && <p dir="auto">{does.text}</p>}
+      {does && (
+        <p class="clip-3" dir="auto">
+          {does.text}
+        </p>
+      )}
       {robot.state !== "ready" && robot.message && <p class="reason">{say(robot.message)}</p>}
       {robot.unstopped && (
         <p class="bad-words">
@@ -93,9 +97,9 @@ function One({ robot }: { robot: Robot }) {
           <button
             type="button"
             onClick={() => lookAt(robot)}
-            aria-label={`${ft("map.label")}: ${name}`}
+            aria-label={`${ft("map.show")}: ${name}`}
           >
-            ⌖
+            {ft("map.show")}
           </button>
         )}
         {page !== null && (

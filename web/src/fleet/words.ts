@@ -44,6 +44,7 @@ export const WORDS = {
     zh: "会一直重复告知直到确认；如可能造成伤害，请到它身边。",
   },
   "stop.one_waits": { en: "has not confirmed a stop", zh: "尚未确认停止" },
+  "map.show": { en: "On the map", zh: "看地图" },
   "map.label": { en: "Where the robots are", zh: "机器人的位置" },
   "map.keys": {
     en: "Map: plus and minus zoom, [ and ] turn, n turns north up, 0 shows all",

@@ -12,6 +12,7 @@ export type Nameplate = {
   readonly text: string;
   readonly at: Point; // in metres of the map
   readonly more?: string; // classes
+  readonly radius?: number; // of what it names, in metres
 };
 
 /** Who chooses room first. */
@@ -97,7 +98,8 @@ export class Nameplates {
     const labels = ORDER.flatMap((kind) =>
       [...(this.kinds.get(kind)?.values() ?? [])].map(({ plate, size }): Label => {
         const [width, height] = size ?? [0, 0];
-        return { at: unmovedPixel(camera, plate.at), width, height, mark: MARK_PX[kind] };
+        const mark = Math.max(MARK_PX[kind], camera.scale * (plate.radius ?? 0));
+        return { at: unmovedPixel(camera, plate.at), width, height, mark };
       }),
     );
     const spots = placeLabels(labels, robot ? [robot, ...blocked] : blocked, view);

@@ -1,5 +1,5 @@
 /** Find what a click on the map means: a place near it, else the room around it. Pure. */
-import type { Place, Thing } from "../wire/types";
+import type { Place, Pose, Thing } from "../wire/types";
 
 export const NEAR_M = 0.45;
 
@@ -36,6 +36,22 @@ export function thingAt(things: readonly Thing[], point: Point): Thing | null {
     .filter(({ away }) => away <= ON_M)
     .sort((a, b) => a.away - b.away)[0];
   return near?.thing ?? null;
+}
+
+type Standing = { readonly pose: Pose; readonly radius: number };
+
+/** Group robots of which one stands over another's middle: their discs can't be told apart. */
+export function atOneSpot<T extends Standing>(bodies: readonly T[]): [T, ...T[]][] {
+  const groups: [T, ...T[]][] = [];
+  for (const body of bodies) {
+    const { x_m: x, y_m: y } = body.pose;
+    const there = groups.find(
+      ([{ pose, radius }]) => Math.hypot(pose.x_m - x, pose.y_m - y) < radius,
+    );
+    if (there) there.push(body);
+    else groups.push([body]);
+  }
+  return groups;
 }
 
 /** Say whether a polygon holds a point: crossings of a ray to the right. */

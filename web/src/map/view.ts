@@ -19,7 +19,7 @@ import { Gestures, type Touched } from "./gestures";
 import { boxAround, type PixelBox } from "./labels";
 import { colourClass, type Kind, type Nameplate, Nameplates } from "./nameplates";
 import { colour, picture, tinted } from "./raster";
-import type { Point } from "./resolve";
+import { atOneSpot, type Point } from "./resolve";
 
 const SMALL_PX_PER_M = 38; // below it letters are smaller
 const FIT_PX = 10;
@@ -160,13 +160,16 @@ export class MapView {
     if (this.plates.crowds(this.robotBox())) this.replaceNames();
   }
 
-  /** Draw several robots, each with its name. */
+  /** Draw several robots, each with its name; those that cover each other share a plate. */
   showBodies(bodies: readonly Body[]): void {
     this.drawing.showBodies(bodies);
-    this.write(
-      "robot",
-      bodies.map(({ id, pose }): Nameplate => ({ id, text: id, at: pointOf(pose) })),
-    );
+    const plate = ([first, ...others]: readonly [Body, ...Body[]]): Nameplate => ({
+      id: first.id,
+      text: [first, ...others].map(({ id }) => id).join("\n"),
+      at: pointOf(first.pose),
+      radius: first.radius,
+    });
+    this.write("robot", atOneSpot(bodies).map(plate));
   }
 
   /** Say whether a name stands nowhere for want of room. */

@@ -3,6 +3,8 @@ import { useSignal } from "@preact/signals";
 import { say, t } from "../i18n";
 import type { Bilingual } from "../wire/types";
 
+const MANY_CHARACTERS = 100;
+
 export type Option = { readonly text: string; readonly label: Bilingual };
 
 export function QuestionForm(asked: {
@@ -19,7 +21,11 @@ export function QuestionForm(asked: {
   };
   return (
     <div class="clarify">
-      <p class="question-words" dir="auto">
+      <p
+        class="question-words"
+        dir="auto"
+        tabIndex={asked.words.length > MANY_CHARACTERS ? 0 : undefined} // it may have to be scrolled
+      >
         {asked.words}
       </p>
       <div class="buttons">
