@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import cos, hypot, pi, sin
+from typing import Any
 
 import pytest
 
@@ -25,7 +26,7 @@ DOOR_M, BEFORE_M = (5.0, 2.85), (5.0, 3.55)
 CORNERS = ((1.0, 1.0), (9.0, 1.0), (1.0, 4.8), (9.0, 4.8))
 
 
-def aside(robot: tuple[float, float], other: tuple[float, float], **more: float) -> RouteRequest:
+def aside(robot: tuple[float, float], other: tuple[float, float], **more: Any) -> RouteRequest:
     """Return the request of a robot that makes way for another one, as the lidar sees that."""
     away_m = hypot(other[0] - robot[0], other[1] - robot[1])
     share = (away_m - 0.15) / away_m
