@@ -31,7 +31,9 @@ def aside(robot: tuple[float, float], other: tuple[float, float], **more: Any) -
     away_m = hypot(other[0] - robot[0], other[1] - robot[1])
     share = (away_m - 0.15) / away_m
     seen = [a + share * (b - a) for a, b in zip(robot, other, strict=True)]
-    return RouteRequest(Pose2(*robot, 0.0), Pose2(*seen, 0.0), aside=True, passes_m=0.3, **more)
+    return RouteRequest(
+        Pose2(*robot, 0.0), Pose2(seen[0], seen[1], 0.0), aside=True, passes_m=0.3, **more
+    )
 
 
 def end(request: RouteRequest) -> tuple[float, float]:
