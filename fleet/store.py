@@ -160,6 +160,7 @@ class FleetStore(MissionStore):
         while self._owed:
             stop, more = self._owed[0]
             self.stop(*stop, **more)
+            self.forget_stops()  # one that was noted before is confirmed only now
             with suppress(ValueError):  # another thread was as quick
                 self._owed.remove((stop, more))
         return super().unconfirmed_stops()

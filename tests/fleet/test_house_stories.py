@@ -120,7 +120,7 @@ def test_a_robot_low_on_battery_is_passed_over_and_sent_to_its_dock_once(
     robot.rule(battery=0.5)  # above the threshold, and not charged yet
     (named,) = house.give("weary: go to the attic")  # a person's word goes
     house.await_state(named["id"], "succeeded")
-    assert house.mission(mission["id"])["reason"] == "robots_low"
+    await_reason(house, mission, "robots_low")
     robot.rule(battery=0.9)
     assert house.await_state(mission["id"], "succeeded")["robot"] == "weary"
     assert len(sent()) == 1  # the other one goes by its own order
@@ -141,7 +141,7 @@ def test_in_quiet_hours_nothing_begins_that_moves(
     robot.rule(does="stands")
     (says,) = house.give("quietly: say hello")
     house.await_state(says["id"], "succeeded")
-    assert house.mission(moves["id"])["reason"] == "quiet_hours"
+    await_reason(house, moves, "quiet_hours")
     rule(house, quiet=None)
     house.await_state(moves["id"], "succeeded")
 
