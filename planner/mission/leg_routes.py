@@ -17,7 +17,7 @@ from planner.mission.legs import abandon_route, detour_failed, new_leg, take_sho
 from planner.mission.occupied_goal import give_up_goal, wait_beside
 from planner.mission.outcomes import spot_at
 from planner.mission.queue import note_step, settle_activity
-from planner.mission.recovery import Recovery, aside_s, passes_m, rung_of
+from planner.mission.recovery import PASSING_S, Recovery, aside_s, passes_m, rung_of
 from planner.mission.recovery_steps import (
     climb_on,
     end_manoeuvre,
@@ -113,19 +113,18 @@ def _begin_manoeuvre(turn: Transaction, mission: Mission, own: Manoeuvre, routed
 
 
 def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Routed) -> None:
-    """Make way before one who comes is there; else stand, unless it can pass.
+    """Make way before one who comes is there; else stand: it makes way, or passes here.
 
-    Who comes makes way then, or is stopped by this robot: two that both drive stop too late.
+    Two that both drive towards each other stop too late.
     """
-    if routed.failure is not None:
-        note_recovery(turn, mission, Recovery.WAIT)
-        own = replace(own, part=1, until_s=turn.now_s + HOLDS_S, is_early=False)
-        turn.change(manoeuvre=own, leg=None)
-    elif routed.length_m > 0.0:
+    if routed.failure is None and routed.length_m > 0.0:
         noted = note_recovery(turn, mission, own.rung.recovery)
         _begin_manoeuvre(turn, noted, own, routed)
-    else:
-        turn.change(manoeuvre=None)
+        return
+    note_recovery(turn, mission, Recovery.WAIT)
+    seconds = HOLDS_S if routed.failure is not None else PASSING_S
+    own = replace(own, part=1, until_s=turn.now_s + seconds, is_early=False)
+    turn.change(manoeuvre=own, leg=None)
 
 
 def _stay_aside(turn: Transaction, mission: Mission, leg: Driving, own: Manoeuvre) -> None:

@@ -2,7 +2,7 @@
 
 Laws. Who stands 0.06 m before another one turns at 0.3 rad/s and sees half of it; so two that meet
 in a door or a hallway decide two metres before. Both search the same: who has the shorter way aside
-goes, the other stands and climbs the ladder of recovery. Where it can be passed the leg goes on.
+goes, the other stands and climbs the ladder of recovery; so does one that can be passed already.
 """
 
 from __future__ import annotations

@@ -77,9 +77,6 @@ PASSING_S = 5.0
 """A robot that stands aside is passed by then: three metres at a slow walk."""
 MAX_WIDE_LADDERS = 8
 """Before one who is as wide as a robot: it has to turn and to drive off first."""
-PASSES_M = 0.3
-"""The least radius for whom a robot makes way then; also for a person who still stands there when
-the ladder is climbed once more."""
 WIDE_S = (2.0, 8.0)
 """So much longer, at most, before the robot makes way for it, and while it stands aside: by chance,
 so that two who meet don't do the same at once again and again."""
@@ -201,10 +198,10 @@ def aside_s(record: RecoveryRecord) -> float:
 
 def passes_m(record: RecoveryRecord) -> float:
     """Return the radius of who is to pass, where that is more than a person; 0: it is not."""
-    newest, again = record.newest, record.climbed_again > 0
-    if newest is None or not newest.moves or not (again or is_wide(newest.radius_m)):
+    newest = record.newest
+    if newest is None or not newest.moves or not is_wide(newest.radius_m):
         return 0.0
-    return max(newest.radius_m, PASSES_M)
+    return newest.radius_m
 
 
 def waits_for_other(record: RecoveryRecord) -> bool:

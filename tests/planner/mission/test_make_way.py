@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute
 from planner.mission.events import Oncoming
 from planner.mission.leg_routes import HOLDS_S
@@ -57,14 +56,14 @@ def test_one_that_is_to_be_made_way_for_stands_and_looks_for_its_way_again(
     world.run_until(goal, SUCCEEDED)
 
 
-def test_where_both_can_pass_the_leg_goes_on(world: Together) -> None:
+def test_where_it_can_be_passed_it_stands_until_that_is_done(world: Together) -> None:
     world.stays_aside = True
     goal = driving(world)
     come(world)
-    activity = world.engine.book.activity
-    assert isinstance(activity, Driving)
-    assert (activity.leg, activity.manoeuvre) == (1, None)
-    assert told(world, goal) == ()
+    assert world.engine.leg is None
+    assert told(world, goal) == ("wait",)
+    world.run(PASSING_S - 0.5)
+    assert world.engine.leg is None
     world.run_until(goal, SUCCEEDED)
 
 
@@ -78,12 +77,12 @@ def test_a_person_or_one_that_is_far_is_met_as_before(world: Together) -> None:
 
 
 def test_a_meeting_is_decided_again_only_after_some_seconds(world: Together) -> None:
-    world.stays_aside = True
+    world.way = lambda ask: "no_route" if ask.way is Way.ASIDE else None
     driving(world)
-    for _ in range(5):
-        come(world)
-        world.run(0.2)
+    come(world)
+    world.run(HOLDS_S + 0.4)
+    come(world)
     assert len(asked(world)) == 1
-    world.run(AGAIN_S)
+    world.run(AGAIN_S - HOLDS_S)
     come(world)
     assert len(asked(world)) == 2

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import cos, hypot, pi, sin
-from typing import Any
 
 import pytest
 
@@ -26,14 +25,13 @@ DOOR_M, BEFORE_M = (5.0, 2.85), (5.0, 3.55)
 CORNERS = ((1.0, 1.0), (9.0, 1.0), (1.0, 4.8), (9.0, 4.8))
 
 
-def aside(robot: tuple[float, float], other: tuple[float, float], **more: Any) -> RouteRequest:
+def aside(robot: tuple[float, float], other: tuple[float, float]) -> RouteRequest:
     """Return the request of a robot that makes way for another one, as the lidar sees that."""
     away_m = hypot(other[0] - robot[0], other[1] - robot[1])
     share = (away_m - 0.15) / away_m
-    seen = [a + share * (b - a) for a, b in zip(robot, other, strict=True)]
-    return RouteRequest(
-        Pose2(*robot, 0.0), Pose2(seen[0], seen[1], 0.0), aside=True, passes_m=0.3, **more
-    )
+    seen_x_m, seen_y_m = (a + share * (b - a) for a, b in zip(robot, other, strict=True))
+    start, seen = Pose2(*robot, 0.0), Pose2(seen_x_m, seen_y_m, 0.0)
+    return RouteRequest(start, seen, aside=True, passes_m=0.3)
 
 
 def end(request: RouteRequest) -> tuple[float, float]:
