@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 EXIT_DONE, EXIT_UNUSABLE = 0, 2
 FAREWELL_S = 2.0
-"""A broker that answers nothing held the end up for 10 s and more."""
+"""A broker that answers nothing could hold the end up for as long as the client waits for it."""
 SETTINGS_FILE = "settings.toml"
 NO_TABLE = (
     "mqtt_unset: {} has no [mqtt] table; docs/smart-home.md shows one",

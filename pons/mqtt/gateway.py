@@ -31,6 +31,7 @@ from processes.backoff import Backoff
 from wire import ConfigError
 
 if TYPE_CHECKING:
+    from collections import deque
     from pathlib import Path
 
     from planner.settings import MqttSettings
@@ -50,8 +51,29 @@ EVENT_EXPIRY_S = 60
 REFUSED_S = 1.0
 """Between two refusals that are told; those between are counted."""
 MOST_WAITING = 200
-"""Messages that wait to be read; a flood's further ones are dropped unread."""
+"""Messages that wait to be read; a flood's further ones are dropped unread, but for a stop."""
 MAX_PACKET_BYTES = 65_536
+
+
+class StopFirstQueue(asyncio.Queue[aiomqtt.Message]):
+    """Hand on a stop before all that waits; in a line that a flood fills, make room for it."""
+
+    def put_nowait(self, item: aiomqtt.Message) -> None:
+        """Take a message; where the line is full, any but a stop is refused with QueueFull."""
+        waiting: deque[aiomqtt.Message] = self._queue  # type: ignore[attr-defined]  # its own lack
+        if not _is_stop(item):
+            super().put_nowait(item)
+            return
+        if self.full():
+            waiting.pop()
+        super().put_nowait(item)
+        waiting.rotate(1)
+
+
+def _is_stop(message: aiomqtt.Message) -> bool:
+    word = str(message.topic).rpartition("/")[2]
+    order = read_order(word, message.payload, retained=False, rooms=())
+    return isinstance(order, HomeOrder) and order.kind == "stop"
 
 
 class HomeGateway:
@@ -269,6 +291,7 @@ def _client(launch: LaunchSettings, settings: MqttSettings, availability: str) -
         keepalive=KEEPALIVE_S,
         timeout=ANSWER_S,
         tls_context=trusted,
+        queue_type=StopFirstQueue,
         max_queued_incoming_messages=MOST_WAITING,
         max_queued_outgoing_messages=MOST_WAITING,
         logger=quiet,

@@ -17,6 +17,7 @@ from tempfile import TemporaryDirectory
 import aiomqtt
 import pytest
 
+from pons.mqtt.gateway import StopFirstQueue
 from pons.robot_processes import free_port
 from pons.settings import CHECKOUT
 from tests.pons.mqtt.broker import PASSWORD, USER, Broker
@@ -219,6 +220,21 @@ def test_a_gateway_that_dies_is_told_by_its_will(tmp_path: Path) -> None:
 
     with Broker(tmp_path) as broker, joined_home(broker, tmp_path / "gateway.log") as made:
         made.told(story)
+
+
+def test_a_stop_goes_before_what_waits_and_finds_room_where_a_flood_leaves_none() -> None:
+    def message(word: str, payload: bytes) -> aiomqtt.Message:
+        return aiomqtt.Message(f"pons/{ROBOT}/{word}", payload, 1, False, 1, None)
+
+    for stop in (("stop", b"PRESS"), ("command", b"stop"), ("sentence", "停".encode())):
+        line = StopFirstQueue(maxsize=3)
+        for number in range(3):
+            line.put_nowait(message("sentence", f"go to room {number}".encode()))
+        with pytest.raises(asyncio.QueueFull):
+            line.put_nowait(message("sentence", b"go home"))
+        line.put_nowait(message(*stop))
+        taken = [line.get_nowait().payload for _ in range(line.qsize())]
+        assert taken == [stop[1], b"go to room 0", b"go to room 1"]
 
 
 def test_a_broker_that_is_slow_replays_an_hour_of_orders_or_answers_nothing(

@@ -56,12 +56,12 @@ def _take(lab: BenchLab) -> list[list[float]]:
     with lab.folder() as home, BenchRobot(home, "two_room") as robot:
         robot.await_planner()
         made = call(robot.settings, "POST", "/v1/people", {"name": "Bench", "role": "agent"})
-        with _serve_mcp(robot) as port:
+        with _run_server(robot) as port:
             return asyncio.run(_pairs(robot.settings.url, port, str(made["token"])))
 
 
 @contextmanager
-def _serve_mcp(robot: BenchRobot) -> Iterator[int]:
+def _run_server(robot: BenchRobot) -> Iterator[int]:
     """Run ``pons mcp --http`` for this robot; lend its port."""
     settings, port = robot.settings, free_port()
     environment = {

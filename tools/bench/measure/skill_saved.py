@@ -21,15 +21,12 @@ LONG_ONLY = False
 SLICE = 15
 _NUMBERS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
             "eleven", "twelve", "thirteen", "fourteen", "fifteen")  # fmt: skip
-ROUTINE = 'en = "do the round of the {}"\nsteps = [{{kind = "say", text = "done"}}]\n'
-FUNCTION = '''"""Count.
+ROUTINE = 'en = "do the round of the {0}"\nsteps = [{{kind = "say", text = "done"}}]\n'
+FUNCTION = '''def {0}() -> str:
+    """Count.
 
-en: do the count of the {}
-"""
-
-
-def run() -> str:
-    """Say it."""
+    en: do the count of the {0}
+    """
     return "done"
 '''
 
