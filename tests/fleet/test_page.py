@@ -235,6 +235,11 @@ def test_stop_is_in_view_and_axe_finds_nothing_in_every_state(
         house.give(f"{robot.name}: go to the kitchen " + "and then to the hall " * 30)
     page.locator("[data-asks]").wait_for()
     assert_fits(page, "asking")
+    field = page.locator("[data-asks] input").bounding_box()
+    bar = page.locator(".stopbar").bounding_box()
+    assert field is not None
+    assert bar is not None
+    assert field["y"] + field["height"] <= bar["y"], "the answer is below the fold"
     found += [f"asking: {one}" for one in violations(page)]
     robots[1].kill()
     page.locator("#missions [data-state=unknown]").wait_for()

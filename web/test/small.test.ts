@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { FIRST_MS, LONGEST_MS, waitMs } from "../src/net/backoff";
-import { fixed, seconds, when } from "../src/panels/format";
+import { fixed, seconds, when, steadySpeed, wayLeft } from "../src/panels/format";
 import { busy, onlyPartly, sorted, withProgress } from "../src/state/goals";
 import { whole } from "../src/panels/Draft";
 import { goal } from "./examples";
@@ -103,5 +103,20 @@ describe("progress", () => {
     ["is of no step", { goal: "a", step: 2, left_m: 1 }],
   ])("changes nothing where it %s", (_, progress) => {
     expect(withProgress(goals, progress)).toBe(goals);
+  });
+});
+
+describe("figures that rest", () => {
+  it.each([
+    [0.021, "0.05"],
+    [0.484, "0.50"],
+    [-0.5, "0.50"],
+    [0.26, "0.25"],
+  ])("writes %s m/s in steps that do not tremble", (speed, text) => {
+    expect(steadySpeed(speed)).toBe(text);
+  });
+
+  it("writes a way in tenths only where it is near", () => {
+    expect([9.74, 3, 2.96, 0.04].map(wayLeft)).toEqual(["10 m", "3 m", "3.0 m", "0.0 m"]);
   });
 });

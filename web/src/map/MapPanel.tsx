@@ -4,7 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { things } from "../eyes/sight";
 import { orderTo } from "../eyes/words";
 import { say, t } from "../i18n";
-import { fixed, seconds, when } from "../panels/format";
+import { seconds, wayLeft, when } from "../panels/format";
 import { toTeaching } from "../panels/Tabs";
 import { followGhost } from "../rehearse/ghost";
 import { give } from "../state/acts";
@@ -390,7 +390,7 @@ function ToGo() {
   if (left === null) return null;
   const wallMs = now.value.wallMs;
   const facts = [
-    t("step.to_go", { left: fixed(left.left, 1, "m") }),
+    t("step.to_go", { left: wayLeft(left.left) }),
     left.stepsAfter > 0 ? t("map.stops_after", { n: String(left.stepsAfter) }) : "",
     left.seconds === null ? "" : t("map.about", { time: seconds(left.seconds) }),
     left.seconds === null || left.seconds < AT_S

@@ -21,7 +21,9 @@ export function Asked() {
         <section class={`card asked ${stale}`} aria-labelledby="asked-title" id="asked">
           <h2 id="asked-title">
             {t("now.asks")}
-            {stale && <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>}
+            {stale !== "" && (
+              <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>
+            )}
           </h2>
           <Turn key={goal.id} goal={goal} />
           {more.length > 0 && <p class="fine">{t("now.more", { n: `${more.length}` })}</p>}

@@ -34,7 +34,7 @@ function Transcript() {
     <section class={`card ${stale}`} aria-labelledby="said-title" id="said">
       <h2 id="said-title">
         {t("said.title")}
-        {stale && <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>}
+        {stale !== "" && <span class="old"> {t("link.age", { age: seconds(age("page")) })}</span>}
       </h2>
       {open.length === 0 && <p class="fine">{t("goal.none")}</p>}
       {open

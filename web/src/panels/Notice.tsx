@@ -29,7 +29,7 @@ export function Notice({ urgent = false }: { urgent?: boolean }) {
     >
       <h2 id="notice-title">
         {t(remedy ? "notice.title" : "notice.watch")}
-        {stale && <span class="old"> {t("link.age", { age: seconds(age("status")) })}</span>}
+        {stale !== "" && <span class="old"> {t("link.age", { age: seconds(age("status")) })}</span>}
       </h2>
       <ul>
         {items.map((item) => (

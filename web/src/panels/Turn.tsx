@@ -132,7 +132,7 @@ export function Steps({ steps, goal }: { steps: readonly Step[]; goal: string })
             {MARKS[step.state] ?? "•"}
           </span>
           <span class="what">
-            {roleWords(step) && <span class="role">{roleWords(step)} </span>}
+            {roleWords(step) !== "" && <span class="role">{roleWords(step)} </span>}
             {stepWords(step)}
             <span class="unseen"> ({word("state", step.state)})</span>
             {step.reason && <span class="reason"> {reasonWords(step.reason)}</span>}

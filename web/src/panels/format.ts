@@ -8,6 +8,13 @@ export function fixed(value: number | null | undefined, digits: number, unit = "
   return unit ? `${shown} ${unit}` : shown;
 }
 
+/** Write how far it is still: tenths only where it is near, so that a far figure rests. */
+export const wayLeft = (metres: number): string => fixed(metres, metres < 3 ? 1 : 0, "m");
+
+/** Write a measured speed in steps of 0.05 m/s: a finer figure trembles while nothing changes. */
+export const steadySpeed = (mps: number): string =>
+  (Math.max(1, Math.round(20 * Math.abs(mps))) / 20).toFixed(2);
+
 export const percent = (share: number): string => `${Math.round(100 * Math.max(0, share))} %`;
 
 /** Write an age: tenths while it is young, then whole seconds, minutes, hours. */

@@ -1,7 +1,7 @@
 /** Say how a step goes and what came of it: what was asked, what was reached, what is left. Pure. */
 import { t } from "../i18n";
 import type { Step } from "../wire/types";
-import { fixed } from "./format";
+import { fixed, wayLeft } from "./format";
 import { spotWords } from "./steps";
 
 export const degrees = (radians: number): string => `${fixed((radians * 180) / Math.PI, 0)}°`;
@@ -15,7 +15,7 @@ export function verdict(step: Step): string[] {
 
 function ahead(step: Step): string[] {
   const figures: string[] = [];
-  if (known(step.left_m)) figures.push(t("step.to_go", { left: fixed(step.left_m, 1, "m") }));
+  if (known(step.left_m)) figures.push(t("step.to_go", { left: wayLeft(step.left_m) }));
   if (known(step.left_rad)) figures.push(t("step.to_go", { left: degrees(step.left_rad) }));
   if (known(step.left_s)) figures.push(t("step.to_go", { left: fixed(step.left_s, 0, "s") }));
   return [...figures, ...visited(step), ...bill(step)];

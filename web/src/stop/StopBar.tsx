@@ -1,6 +1,6 @@
 /** Show the Stop button, on every view, and what the bridge has said to it. */
 import { t } from "../i18n";
-import { seconds } from "../panels/format";
+import { seconds, steadySpeed } from "../panels/format";
 import { limitWords } from "../panels/steps";
 import { age, bridgeFresh, shownStatus } from "../state/store";
 import { headlineNow, linkNow } from "../state/facts";
@@ -52,7 +52,7 @@ const motionNow = steady(() => {
   const said = shownStatus.value;
   if (said === null) return null;
   const how = motion(said.measured.v_mps, said.measured.w_radps);
-  const moves = t(`motion.${how}`, { speed: Math.abs(said.measured.v_mps).toFixed(2) });
+  const moves = t(`motion.${how}`, { speed: steadySpeed(said.measured.v_mps) });
   const { word, tone } = headlineNow.value;
   const stands = how === "standing";
   const told = linkNow.value === "live" && (stands ? tone !== "good" : !PLAIN.has(tone));
