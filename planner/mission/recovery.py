@@ -205,8 +205,8 @@ def passes_m(record: RecoveryRecord) -> float:
 
 
 def waits_for_other(record: RecoveryRecord) -> bool:
-    """Tell whether the other one may still be about to make way: for three ladders."""
-    return record.climbed_again < 3
+    """Tell whether the other one may still be about to make way: for one ladder."""
+    return record.climbed_again < 1
 
 
 def _by_chance(record: RecoveryRecord) -> tuple[float, float]:

@@ -6,8 +6,9 @@ Knows no coordinates: where a place lies is the world's business. A site builds 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from functools import cached_property
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import StringConstraints, model_validator
 
@@ -68,6 +69,15 @@ class Vocabulary(Frozen):
     def text(self) -> str:
         """Return all that it holds as one text."""
         return self.model_dump_json()
+
+    def model_copy(
+        self, *, update: Mapping[str, Any] | None = None, deep: bool = False
+    ) -> Vocabulary:
+        """Return a copy that keeps nothing of what was worked out from the fields of this one."""
+        made = super().model_copy(update=update, deep=deep)
+        for worked_out in ("by_id", "text"):
+            made.__dict__.pop(worked_out, None)
+        return made
 
     def __eq__(self, other: object) -> bool:
         """Compare as one text: what is kept by one vocabulary is looked up by another equal one."""

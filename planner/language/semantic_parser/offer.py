@@ -120,7 +120,10 @@ def offer_plan(
     plan = _make_steps(read.plan, vocabulary, language, context.newest)
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
         return without_offer
-    if not is_sure and (_lacks_condition(plan, told.code) or _is_doubted(plan, told)):
+    recalls = all(isinstance(step, Recall) for step in plan.steps)
+    if told.code is Code.AMBIGUOUS and not recalls:  # which of two, or whether at all
+        return None
+    if _lacks_condition(plan, told.code) or (not is_sure and _is_doubted(plan, told)):
         return None
     return _offer_steps(plan, text, vocabulary, language, at_once=is_sure)
 
