@@ -120,10 +120,7 @@ def offer_plan(
     plan = _make_steps(read.plan, vocabulary, language, context.newest)
     if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
         return without_offer
-    recalls = all(isinstance(step, Recall) for step in plan.steps)
-    if told.code is Code.AMBIGUOUS and not recalls:  # which of two, or whether at all
-        return None
-    if _lacks_condition(plan, told.code) or (not is_sure and _is_doubted(plan, told)):
+    if _lacks_condition(plan, told.code) or _is_doubted(plan, told, is_sure=is_sure):
         return None
     return _offer_steps(plan, text, vocabulary, language, at_once=is_sure)
 
@@ -185,9 +182,12 @@ def _lacks_condition(plan: StepPlan, code: Code) -> bool:
     return code is Code.CONDITIONAL and not kinds & _HANGING and plan.does is not PlanRole.AFTER
 
 
-def _is_doubted(plan: StepPlan, told: Clarify | Refuse) -> bool:
-    """Return whether rules see a deed that is beyond the robot, or denied with no place named."""
-    return told.code in _BEYOND or (told.code is Code.NEGATED and not _places_of(plan))
+def _is_doubted(plan: StepPlan, told: Clarify | Refuse, *, is_sure: bool) -> bool:
+    """Return whether rules see a choice, a deed beyond the robot, or one denied with no place."""
+    if told.code is Code.AMBIGUOUS:
+        return not all(isinstance(step, Recall) for step in plan.steps)
+    denied = told.code is Code.NEGATED and not _places_of(plan)
+    return not is_sure and (told.code in _BEYOND or denied)
 
 
 def _places_of(plan: StepPlan) -> set[str]:

@@ -1,4 +1,4 @@
-"""Names that differ in anything are never taken for one another, whatever was asked of them before."""
+"""Names that differ in anything are never taken for one another, whatever was asked before."""
 
 from __future__ import annotations
 
