@@ -133,8 +133,8 @@ def test_a_robots_clock_a_day_off_moves_no_time_here_and_hides_no_spending(
     robot.kill()
     silent = fleet.await_state(mission["id"], "unknown")
     told = [silent[f"{name}_unix_s"] for name in ("created", "unknown_since", "updated")]
-    times = [began_unix_s, *told, time.time()]
-    assert times == sorted(times)
+    # It is unknown since the robot was heard last, which may be before the order was given.
+    assert all(began_unix_s - 60.0 < each <= time.time() for each in told)
     robot.start()
     robot.rule(clock_s=off_s)
     fleet.await_state(mission["id"], "succeeded")
