@@ -75,8 +75,8 @@ class Vocabulary(Frozen):
     ) -> Vocabulary:
         """Return a copy that keeps nothing of what was worked out from the fields of this one."""
         made = super().model_copy(update=update, deep=deep)
-        for worked_out in ("by_id", "text"):
-            made.__dict__.pop(worked_out, None)
+        for worked_out in made.__dict__.keys() - type(made).model_fields.keys():
+            del made.__dict__[worked_out]
         return made
 
     def __eq__(self, other: object) -> bool:
