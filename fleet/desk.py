@@ -28,7 +28,7 @@ from fleet.records import ASKING, GIVEN_UP, UNKNOWN, WAITING, MissionRow, RobotR
 from fleet.robots import link_of
 from fleet.standing import keep_time
 from fleet.stops import Stops
-from fleet.watch import SOURCE, RobotWatch, show_robot
+from fleet.watch import CONNECTING, SOURCE, RobotWatch, show_robot
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -83,7 +83,7 @@ class Desk:
         workflow.launch(self, url)
         self.is_carrier = True
         for name, watch in self.watches.items():
-            watch.trouble = None
+            watch.trouble = CONNECTING
             self._tasks[name] = asyncio.create_task(watch.run())
         for name, loop in (("dispatch", self.dispatcher.run()), ("sweep", workflow.sweep(self)),
                            ("standing", keep_time(self)),

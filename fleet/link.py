@@ -57,7 +57,7 @@ class FleetLink:
     pin: Pin
     token: str = field(repr=False)
     is_proven: bool = False
-    """The robot at the other end has told the id that it was added with, since it was last away."""
+    """The robot has told the id that it was added with over the connection that was made last."""
     _client: httpx.AsyncClient | None = field(default=None, repr=False)
 
     async def close(self) -> None:
@@ -143,14 +143,20 @@ class FleetLink:
         """Return an answer's status and bytes; of one that is too long, too many by some."""
         raw = bytearray()
         asked = self._open_client().stream(
-            method, path, params=dict(query), json=body, headers=dict(headers)
-        )
+            method, path, params=dict(query), json=body, headers=dict(headers),
+            extensions={"trace": self._note_connection},
+        )  # fmt: skip
         async with asked as answer:
             async for piece in answer.aiter_raw():  # unpacked here, a small one could be huge
                 raw += piece
                 if len(raw) > MAX_ANSWER_BYTES.get(path, MAX_OTHER_BYTES):
                     break
         return answer.status_code, bytes(raw)
+
+    async def _note_connection(self, event: str, _told: Mapping[str, Any]) -> None:
+        """Forget who answers where httpx connects anew: the robot may have been restarted."""
+        if event == "connection.connect_tcp.started":
+            self.is_proven = False
 
     def _open_client(self) -> httpx.AsyncClient:
         if self._client is None:

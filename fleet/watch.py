@@ -39,6 +39,8 @@ PAGE, MOST_PAGES = 30, 10
 """Of one round: a journal that never ends leaves the others their turns."""
 STOP_S = 2.0
 SOURCE = "fleet"
+CONNECTING = "connecting"
+"""The trouble of a robot that has not answered its first round yet."""
 CLOSING = {"points": [{"x_m": 0.0, "y_m": 0.0}], "map_id": "0" * 16, "language": "en",
            "source": SOURCE}  # fmt: skip
 """Offered under a mission's key to close it: a robot that has not got the mission makes a goal of
@@ -58,7 +60,7 @@ class RobotWatch:
         self.name = link.name
         self.is_ready = False
         """It answers as the one that was added, and has heard all stops and withdrawals."""
-        self.trouble: str | None = None
+        self.trouble: str | None = CONNECTING
         self.told: dict[str, Any] = {}
         self.usage: dict[str, Any] = {}
         """What its model has spent today; empty: not told yet."""
@@ -80,9 +82,8 @@ class RobotWatch:
 
     @property
     def state(self) -> str:
-        """Return ``ready``, its trouble, or ``connecting``; a stop on its way is no trouble."""
-        answers = self.is_ready or (self.trouble is None and self._heard_s is not None)
-        return "ready" if answers else self.trouble or "connecting"
+        """Return ``ready`` or its trouble; a stop on its way is none."""
+        return self.trouble or "ready"
 
     def nudge(self) -> None:
         """Let the next round begin at once."""
@@ -93,31 +94,36 @@ class RobotWatch:
         pause_s = POLL_S
         while True:
             try:
-                has_changed = await self._round()
-                pause_s = POLL_S if has_changed else min(pause_s * 1.2, IDLE_S)
-            except RobotAway as away:
-                await self._note_away(str(away))
-                pause_s = min(pause_s * 1.5, 5.0)
-            except RobotBusy as busy:
-                self._note_heard()
-                log.info("%s: %s", self.name, busy)
-            except RobotRefusal as refused:
-                self.is_ready = self.link.is_proven = False
-                self.trouble = refused.code
-                pause_s = min(pause_s * 1.5, 5.0)
-                await asyncio.to_thread(self._mark_silent_if_due)
-            except SQLAlchemyError as error:
+                pause_s = await self._round_or_trouble(pause_s)
+            except SQLAlchemyError as error:  # of the notes of a trouble too
                 log.warning("store_unavailable: %s", error)
                 pause_s = 1.0
-            except (KeyError, TypeError, ValueError) as odd:
-                # What no shape of fleet/answers.py foresaw: a dead watch would repeat no stop.
-                log.exception("%s answers what is not read", self.name)
-                await self._note_away(f"an answer that is not read: {odd!r}")
-                pause_s = min(pause_s * 1.5, 5.0)
             with suppress(TimeoutError):
                 spread_s = pause_s * random.uniform(0.8, 1.2)  # many do not come back at once
                 await asyncio.wait_for(self._nudged.wait(), spread_s)
             self._nudged.clear()
+
+    async def _round_or_trouble(self, pause_s: float) -> float:
+        """Make one round, or note why there was none; return the pause before the next."""
+        try:
+            has_changed = await self._round()
+        except RobotAway as away:
+            await self._note_away(str(away))
+        except RobotBusy as busy:
+            self._note_heard()
+            log.info("%s: %s", self.name, busy)
+            return pause_s
+        except RobotRefusal as refused:
+            self.is_ready = self.link.is_proven = False
+            self.trouble = refused.code
+            await asyncio.to_thread(self._mark_silent_if_due)
+        except (KeyError, TypeError, ValueError) as odd:
+            # What no shape of fleet/answers.py foresaw: a dead watch would repeat no stop.
+            log.exception("%s answers what is not read", self.name)
+            await self._note_away(f"an answer that is not read: {odd!r}")
+        else:
+            return POLL_S if has_changed else min(pause_s * 1.2, IDLE_S)
+        return min(pause_s * 1.5, 5.0)
 
     async def ring_stop(self) -> None:
         """Stop the robot. It needs no proof of who answers: a stop harms nobody.
@@ -174,11 +180,7 @@ class RobotWatch:
         if ids := unconfirmed.get(self.name):
             await self.ring_stop()
             await asyncio.to_thread(self._store.confirm_stops, {self.name: ids})
-        if not self.link.is_proven:
-            card = await self.link.prove()
-            card["skills"] = (await self._ask_of_old("/v1/skills")).get("skills", [])
-            await asyncio.to_thread(self._store.update_card, self.name, card)
-            self._reconciled_s = float("-inf")
+        await self._prove()
         if self._is_marked or self._reconciled_s == float("-inf"):
             await asyncio.to_thread(self._store.mark_heard, self.name)
             self._is_marked = False
@@ -186,10 +188,20 @@ class RobotWatch:
         has_changed = await self._follow()
         self._note_heard()
         await self._look()
+        await self._prove()  # a connection may have been made since
         is_first, self.is_ready, self.trouble = not self.is_ready, True, None
         if is_first:
             self._wake(())
         return has_changed or is_first
+
+    async def _prove(self) -> None:
+        """Read the card of the robot at the other end, where that may be another than before."""
+        if self.link.is_proven:
+            return
+        card = await self.link.prove()
+        card["skills"] = (await self._ask_of_old("/v1/skills")).get("skills", [])
+        await asyncio.to_thread(self._store.update_card, self.name, card)
+        self._reconciled_s = float("-inf")
 
     async def _withdraw(self) -> None:
         """Tell the robot of missions that people ended while it was silent."""
@@ -258,10 +270,11 @@ class RobotWatch:
         await asyncio.to_thread(self._mark_silent_if_due)
 
     def _mark_silent_if_due(self) -> None:
-        if self.is_silent and not self._is_marked:
+        is_silent = self.is_silent  # asked once: time goes on
+        if is_silent and not self._is_marked:
             since = self.heard_unix_s if self.heard_unix_s is not None else time.time()
             self._wake(self._store.mark_silent(self.name, since))
-        self._is_marked = self.is_silent
+        self._is_marked = is_silent
 
 
 def mission_body(mission: MissionRow) -> dict[str, Any]:

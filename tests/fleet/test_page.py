@@ -198,8 +198,8 @@ def test_a_hostile_robot_harms_no_other_and_writes_no_element(
     good, huge, garbage, odd = (make_robot(name) for name in ("good", "huge", "garbage", "odd"))
     huge.rule(map="endless")
     garbage.rule(map="garbage", site=markup, question=markup, ask=True)
-    odd.rule(status=["not", {"a": "status"}])
     add(house, good, huge, garbage, odd)
+    odd.rule(status=["not", {"a": "status"}])
     house.give("garbage: look")
     page = open_page()
     expect(page.locator("[data-asks] .question-words")).to_have_text(markup, timeout=PATIENCE_MS)
@@ -208,7 +208,8 @@ def test_a_hostile_robot_harms_no_other_and_writes_no_element(
         expect(page.locator(f"[data-robot={name}]").last).to_contain_text("can't be shown")
     expect(page.locator("[data-robot=garbage]").last).to_contain_text(markup)
     assert page.locator("#evil, img[src=x]").count() == 0
-    assert house.client.get("/v1/robots").status_code == 200
+    until(lambda: house.states()["odd"] == "robot_silent")
+    assert house.states()["good"] == "ready"
     assert house.process is not None
     status = Path(f"/proc/{house.process.pid}/status").read_text("ascii")
     peak = re.search(r"VmHWM:\s+(\d+) kB", status)
@@ -231,8 +232,9 @@ def test_stop_is_in_view_and_axe_finds_nothing_in_every_state(
     robots[0].rule(ask=True, question="Shall I go through every room of the house? " * 40)
     robots[1].rule(work_s=600.0)
     add(house, *robots)
-    for robot in robots:
-        house.give(f"{robot.name}: go to the kitchen " + "and then to the hall " * 30)
+    words = "go to the kitchen " + "and then to the hall " * 30
+    given = [house.give(f"{robot.name}: {words}")[0]["id"] for robot in robots]
+    house.await_state(given[1], "at_robot")  # what was never sent is not unknown
     page.locator("[data-asks]").wait_for()
     assert_fits(page, "asking")
     field = page.locator("[data-asks] input").bounding_box()
