@@ -11,8 +11,6 @@ import logging
 import uuid
 from typing import TYPE_CHECKING, Any, Protocol
 
-from sqlalchemy.exc import SQLAlchemyError
-
 from fleet.addressee import Addressee
 from fleet.choice import place_names
 from fleet.errors import FleetError
@@ -50,7 +48,7 @@ def dock_of(card: Mapping[str, Any]) -> Mapping[str, Any] | None:
 
 
 async def look_after_batteries(desk: ChargeDesk) -> None:
-    """Note who is low, and send who is free, for ever."""
+    """Note who is low, and send who is free, until cancelled. Raises SQLAlchemyError."""
     while True:
         await asyncio.sleep(LOOK_S)
         try:
@@ -58,8 +56,6 @@ async def look_after_batteries(desk: ChargeDesk) -> None:
             lows = await note_batteries(desk, rules)
             if lows and rules.charge:
                 await send_to_charge(desk, lows)
-        except SQLAlchemyError as error:
-            log.warning("store_unavailable: %s", error)
         except FleetError as refused:  # queue_full
             log.warning("%s", refused)
 

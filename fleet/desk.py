@@ -13,6 +13,7 @@ import re
 import uuid
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from sqlalchemy.exc import SQLAlchemyError
@@ -31,14 +32,18 @@ from fleet.stops import Stops
 from fleet.watch import CONNECTING, SOURCE, RobotWatch, show_robot
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Awaitable, Callable, Iterable, Sequence
     from pathlib import Path
 
     from fleet.carrier import CarrierLock
     from fleet.store import FleetStore
 
+    Loop = Callable[[], Awaitable[None]]
+
 log = logging.getLogger(__name__)
 
+AGAIN_S = 1.0
+"""After that a loop that has failed begins again."""
 THREADS = 64
 """For the database and for names of hosts: one that hangs must not keep a stop from its robot."""
 ROBOTS_S = 2.0
@@ -46,6 +51,18 @@ ROBOTS_S = 2.0
 PROOF_NEEDED = frozenset({"operator_proof_needed", "person_needed", "operator_needed"})
 """Of a robot of metal: its operator's key alone clears what a stop has held."""
 _CHINESE = re.compile(r"[\u4e00-\u9fff]")
+
+
+async def keep_going(name: str, loop: Loop) -> None:
+    """Run a loop until cancelled: one that ended for good would keep orders and stops for ever."""
+    while True:
+        try:
+            await loop()
+        except SQLAlchemyError as error:
+            log.warning("store_unavailable: %s: %s", name, error)
+        except Exception:
+            log.exception("%s failed; it begins again in %g s", name, AGAIN_S)
+        await asyncio.sleep(AGAIN_S)
 
 
 class Desk:
@@ -74,9 +91,8 @@ class Desk:
         await self._take_up_robots()
         if await asyncio.to_thread(lock.take):
             self.carry(url)
-        for name, loop in (("robots", self._look_for_robots()),
-                           ("carrier", keep_lock(self, url, lock))):  # fmt: skip
-            self._tasks[f" {name}"] = asyncio.create_task(loop)
+        self._keep_going(" robots", self._look_for_robots)
+        self._keep_going(" carrier", partial(keep_lock, self, url, lock))
 
     def carry(self, url: str) -> None:
         """Watch robots and carry missions from here on. Call it in the loop."""
@@ -84,11 +100,14 @@ class Desk:
         self.is_carrier = True
         for name, watch in self.watches.items():
             watch.trouble = CONNECTING
-            self._tasks[name] = asyncio.create_task(watch.run())
-        for name, loop in (("dispatch", self.dispatcher.run()), ("sweep", workflow.sweep(self)),
-                           ("standing", keep_time(self)),
-                           ("charging", look_after_batteries(self))):  # fmt: skip
-            self._tasks[f" {name}"] = asyncio.create_task(loop)
+            self._keep_going(name, watch.run)
+        self._keep_going(" dispatch", self.dispatcher.run)
+        self._keep_going(" sweep", partial(workflow.sweep, self))
+        self._keep_going(" standing", partial(keep_time, self))
+        self._keep_going(" charging", partial(look_after_batteries, self))
+
+    def _keep_going(self, name: str, loop: Loop) -> None:
+        self._tasks[name] = asyncio.create_task(keep_going(name.strip(), loop))
 
     async def close(self) -> None:
         """End all tasks; rows stay as they are."""
@@ -103,10 +122,7 @@ class Desk:
     async def _look_for_robots(self) -> None:
         while True:
             await asyncio.sleep(ROBOTS_S)
-            try:
-                await self._take_up_robots()
-            except SQLAlchemyError as error:
-                log.warning("store_unavailable: %s", error)
+            await self._take_up_robots()
 
     async def _take_up_robots(self) -> None:
         """Watch robots that are new, and anew those whose address, certificate or token is."""
@@ -125,7 +141,7 @@ class Desk:
                 await known.link.close()
             watch = self.watches[row.name] = RobotWatch(link, self.store, self.wake)
             if self.is_carrier:
-                self._tasks[row.name] = asyncio.create_task(watch.run())
+                self._keep_going(row.name, watch.run)
             else:
                 watch.trouble = "watched_elsewhere"
 

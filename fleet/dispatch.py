@@ -13,8 +13,6 @@ from collections import Counter
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from sqlalchemy.exc import SQLAlchemyError
-
 from fleet import workflow
 from fleet.choice import BARRED, FAR, LOAD_M, Abilities, assign, steps_of
 from fleet.errors import FleetError, tell
@@ -56,17 +54,14 @@ class Dispatcher:
         self._looks = 0
 
     async def run(self) -> None:
-        """Choose whenever there is work, until cancelled."""
+        """Choose whenever there is work, until cancelled. Raises SQLAlchemyError."""
         while True:
             with suppress(TimeoutError):
                 await asyncio.wait_for(self.work.wait(), DISPATCH_S)
             self.work.clear()
-            try:
-                count = await self._give_robots()
-            except SQLAlchemyError as error:
-                log.warning("store_unavailable: %s", error)
-            else:  # where thousands wait, others get as much of the processor as a round takes
-                await asyncio.sleep(ROUND_S_AN_ORDER * count)
+            count = await self._give_robots()
+            # Where thousands wait, others get as much of the processor as a round takes.
+            await asyncio.sleep(ROUND_S_AN_ORDER * count)
 
     def waits_for(self, mission: MissionRow) -> str | None:
         """Return what a waiting mission waits for, by code."""

@@ -17,7 +17,6 @@ from itertools import islice, pairwise
 from typing import TYPE_CHECKING, Any, Protocol
 
 from cronsim import CronSim, CronSimError
-from sqlalchemy.exc import SQLAlchemyError
 
 from fleet.addressee import is_stop, read_addressee
 from fleet.errors import WORDS, FleetError, tell
@@ -142,15 +141,12 @@ def show_standing(order: StandingRow, rules: HouseRules) -> dict[str, Any]:
 
 
 async def keep_time(desk: OrderTaker) -> None:
-    """Give each order at its times, for ever."""
+    """Give each order at its times, until cancelled. Raises SQLAlchemyError."""
     while True:
         await asyncio.sleep(LOOK_S)
-        try:
-            rules = await asyncio.to_thread(desk.store.rules)
-            for order in await asyncio.to_thread(desk.store.standing_orders):
-                await give_due(desk, order, time.time(), rules.late_min * 60.0)
-        except SQLAlchemyError as error:
-            log.warning("store_unavailable: %s", error)
+        rules = await asyncio.to_thread(desk.store.rules)
+        for order in await asyncio.to_thread(desk.store.standing_orders):
+            await give_due(desk, order, time.time(), rules.late_min * 60.0)
 
 
 async def give_due(desk: OrderTaker, order: StandingRow, now_s: float, late_s: float) -> None:

@@ -14,8 +14,6 @@ from contextlib import suppress
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy.exc import SQLAlchemyError
-
 from fleet.link import FleetLink, RobotAway, RobotBusy, RobotRefusal
 
 if TYPE_CHECKING:
@@ -90,14 +88,10 @@ class RobotWatch:
         self._nudged.set()
 
     async def run(self) -> None:
-        """Make rounds until cancelled."""
+        """Make rounds until cancelled. Raises SQLAlchemyError; a later call goes on."""
         pause_s = POLL_S
         while True:
-            try:
-                pause_s = await self._round_or_trouble(pause_s)
-            except SQLAlchemyError as error:  # of the notes of a trouble too
-                log.warning("store_unavailable: %s", error)
-                pause_s = 1.0
+            pause_s = await self._round_or_trouble(pause_s)
             with suppress(TimeoutError):
                 spread_s = pause_s * random.uniform(0.8, 1.2)  # many do not come back at once
                 await asyncio.wait_for(self._nudged.wait(), spread_s)

@@ -224,20 +224,17 @@ async def _tell(mission_id: str) -> str:
 
 
 async def sweep(desk: MissionDesk) -> None:
-    """Begin missions at work again that stand still, for ever."""
+    """Begin missions at work again that stand still, until cancelled. Raises SQLAlchemyError."""
     idle_since: dict[str, float] = {}
     while True:
         await asyncio.sleep(SWEEP_S)
-        try:
-            rows = await asyncio.to_thread(desk.store.at_work)
-            idle = {row.id: row for row in rows if row.id not in desk.running}
-            idle_since = {each: idle_since.get(each, time.monotonic()) for each in idle}
-            for mission_id, since_s in list(idle_since.items()):
-                if time.monotonic() - since_s >= STANDS_STILL_S:
-                    await _begin_again(desk, idle[mission_id])
-                    del idle_since[mission_id]
-        except SQLAlchemyError as error:
-            log.warning("store_unavailable: %s", error)
+        rows = await asyncio.to_thread(desk.store.at_work)
+        idle = {row.id: row for row in rows if row.id not in desk.running}
+        idle_since = {each: idle_since.get(each, time.monotonic()) for each in idle}
+        for mission_id, since_s in list(idle_since.items()):
+            if time.monotonic() - since_s >= STANDS_STILL_S:
+                await _begin_again(desk, idle[mission_id])
+                del idle_since[mission_id]
 
 
 async def _begin_again(desk: MissionDesk, mission: MissionRow) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 import fleet.watch
+from fleet.desk import keep_going
 from fleet.robots import add_robot, link_of
 from fleet.store import FleetStore
 from fleet.watch import RobotWatch
@@ -34,7 +35,7 @@ async def watched(robot: StubRobot) -> AsyncIterator[RobotWatch]:
     with pytest.MonkeyPatch.context() as patch:
         for name in ("POLL_S", "IDLE_S"):
             patch.setattr(fleet.watch, name, 0.05)
-        task = asyncio.create_task(watch.run())
+        task = asyncio.create_task(keep_going("r", watch.run))
         try:
             yield watch
         finally:
