@@ -33,9 +33,11 @@ class HouseStore:
     def __init__(self, url: str, wall: Callable[[], float] = time.time) -> None:
         self.engine, self._wall = open_database(url), wall
         self._reader = self.engine.execution_options(is_reading=True)
+        self._is_file = self.engine.dialect.name == "sqlite"
         # SQLite's own way to wait for another writer is to sleep, up to 0.1 s at a time.
-        is_file = self.engine.dialect.name == "sqlite"
-        self._turn: AbstractContextManager[Any] = threading.Lock() if is_file else nullcontext()
+        self._turn: AbstractContextManager[Any] = (
+            threading.Lock() if self._is_file else nullcontext()
+        )
         self._stops_lock = threading.Lock()
         self._stops: dict[str, list[str]] = {}
         self._stops_until_s, self._stops_turn = 0.0, 0
@@ -46,8 +48,13 @@ class HouseStore:
 
     @contextmanager
     def writing(self) -> Iterator[sa.Connection]:
-        """Open a transaction that may write; of this process one at a time, in a file."""
+        """Open a transaction that may write: the one writer from its first read to its commit.
+
+        What it reads can't have changed when it writes: a mission that has ended stays ended.
+        """
         with self._turn, self.engine.begin() as connection:
+            if not self._is_file:  # a file's transaction has begun as the one writer
+                connection.execute(sa.select(counter.c.value).with_for_update())
             yield connection
 
     def reading(self) -> AbstractContextManager[sa.Connection]:

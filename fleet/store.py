@@ -95,7 +95,6 @@ class FleetStore(MissionStore):
         None: it waits no more, or the robot is busy, or one of the rooms is held by another.
         """
         with self.writing() as connection:
-            self.raise_counter(connection)  # one writer at a time from here on
             is_held = sa.select(holds.c.mission).where(holds.c.robot == robot)
             if not mission.is_urgent and connection.execute(is_held).first() is not None:
                 return None
@@ -129,7 +128,6 @@ class FleetStore(MissionStore):
             heard: who has confirmed it already.
         """
         with self.writing() as connection:
-            self.raise_counter(connection)  # before robots' rows, as all others do: no deadlock
             if connection.execute(sa.select(stops).where(stops.c.id == stop_id)).first():
                 here = (stops.c.id == stop_id) & stops.c.robot.in_(list(heard))
                 connection.execute(stops.update().where(here).values(confirmed_unix_s=self._wall()))

@@ -83,6 +83,12 @@ class ThinnerStart:
         except OSError as error:
             print(f"thinner_not_started: {error}", file=sys.stderr, flush=True)
 
+    def end(self) -> None:
+        """Leave no process behind; what it was at is whole on the disk, and done the next time."""
+        if self._running is not None:
+            self._running.kill()
+            self._running.wait()
+
 
 def be_humble() -> None:
     """Leave the loop's CPU and priority to the loop, and death to the end of the pipe."""
@@ -109,6 +115,7 @@ def main(arguments: list[str]) -> int:
         print(f"recorder_failed: {error}", file=sys.stderr, flush=True)
         return EXIT_BAD_FRAME
     finally:
+        thinner.end()
         writer.close()
     return EXIT_DONE
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import signal
 import time
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import httpx
 import pytest
@@ -13,7 +15,7 @@ import sqlalchemy as sa
 
 from fleet.carrier import CarrierLock
 from fleet.store import FleetStore
-from fleet.tables import robots
+from fleet.tables import missions, robots
 from tests.fleet.conftest import RunningFleet, until
 from tests.fleet.judge import CLEAN, judge
 from tests.fleet.postgres import running_cluster
@@ -63,11 +65,9 @@ def start(pair: Pair, *settings: str) -> Pair:
     return pair
 
 
-def test_a_stop_waits_for_who_writes_and_holds_no_robots_row_meanwhile(postgres: Cluster) -> None:
-    """Else Postgres ends one of the two as a deadlock, after the second that a stop has."""
-    store = FleetStore(postgres.make_database())
-    store.keep_robot(R1, again=False)
-    waiting = give(store, 1)
+@contextmanager
+def awaited_writer(store: FleetStore, act: Callable[[], Any]) -> Iterator[sa.Connection]:
+    """Lend a transaction that writes, and end it once the act that was begun in it waits for it."""
 
     def count_waiting() -> int:
         asked = "SELECT count(*) FROM pg_stat_activity WHERE wait_event_type = 'Lock'"
@@ -75,12 +75,43 @@ def test_a_stop_waits_for_who_writes_and_holds_no_robots_row_meanwhile(postgres:
             return int(looking.execute(sa.text(asked)).scalar_one())
 
     with ThreadPoolExecutor(1) as other:
-        with store.writing() as telling:  # as apply_goals does: its number, then the robot's row
-            store.raise_counter(telling)
-            stopping = other.submit(store.stop, "s-1", ["r1"], forever=True)
+        with store.writing() as first:
+            yield first
+            waiting = other.submit(act)
             until(count_waiting)
-            telling.execute(robots.update().values(cursor=1))
-        assert stopping.result(30.0) == [waiting.id]
+        waiting.result(30.0)
+
+
+def test_a_mission_that_ended_while_another_waited_to_write_stays_ended(postgres: Cluster) -> None:
+    store = FleetStore(postgres.make_database())
+    store.keep_robot(R1, again=False)
+    told = {"id": "g-1", "state": "running"}
+    acts: dict[str, Callable[[str], Any]] = {
+        "bind": lambda each: store.bind(each, told),
+        "goals": lambda _: store.apply_goals("r1", [told]),
+        "silent": lambda _: store.mark_silent("r1", 1.0),
+        "heard": lambda _: store.mark_heard("r1"),
+    }
+    for number, act in enumerate(acts.values()):
+        mission = give(store, number)
+        assert store.claim(mission, "r1") is not None
+        store.change(mission.id, is_sent=True, goal_id="g-1")
+        with awaited_writer(store, partial(act, mission.id)) as first:
+            ended = missions.update().where(missions.c.id == mission.id)
+            first.execute(ended.values(state="succeeded", goal_state="succeeded"))
+        assert store.mission(mission.id).state == "succeeded"
+        store.end(mission.id, "succeeded")
+    store.close()
+
+
+def test_a_stop_waits_for_who_writes_and_holds_no_robots_row_meanwhile(postgres: Cluster) -> None:
+    """Else Postgres ends one of the two as a deadlock, after the second that a stop has."""
+    store = FleetStore(postgres.make_database())
+    store.keep_robot(R1, again=False)
+    waiting = give(store, 1)
+    with awaited_writer(store, lambda: store.stop("s-1", ["r1"], forever=True)) as telling:
+        telling.execute(robots.update().values(cursor=1))
+    assert store.mission(waiting.id).state == "cancelled"
     store.close()
 
 
@@ -91,7 +122,7 @@ def test_one_lock_has_one_holder_and_a_file_is_held_by_whoever_opens_it(
     first, second = CarrierLock(store.engine), CarrierLock(store.engine)
     assert [first.take(), first.take(), second.take()] == [True, True, False]
     first.close()
-    assert second.take()
+    until(second.take)  # the database sees the end of a session a little later
     second.close()
     store.close()
     file = FleetStore(f"sqlite:///{tmp_path / 'fleet.sqlite'}")

@@ -31,6 +31,8 @@ def test_hostile_robots_harm_no_other(
     fleet.await_ready(*honest, *evil)
     assert fleet.process is not None
     service = psutil.Process(fleet.process.pid)
+    first = fleet.give("nearest: go to the hall")  # the first choice of all loads scipy
+    fleet.await_state(first[0]["id"], "succeeded")
     for robot in evil:
         robot.rule(evil=robot.name)
     lured = [fleet.give(f"{robot.name}: go to the hall")[0]["id"] for robot in evil]

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import psutil
 import pytest
 
 from bridge.recording import foxglove_messages, pipe_frames
 from bridge.recording import writer as writer_module
+from bridge.recording.__main__ import ThinnerStart
 from bridge.recording.mcap_reader import McapReader
 from bridge.recording.pipe_frames import BadFrame, Splitter, frame
 from bridge.recording.writer import Writer
@@ -113,3 +115,12 @@ def test_a_word_is_one_short_line() -> None:
     said = pipe_frames.word(pipe_frames.FAILING, "disk_full: two\nlines " + "x" * 1000)
     assert said.count(b"\n") == 1
     assert len(said) <= pipe_frames.WORD_MOST + 2
+
+
+def test_a_thinner_that_is_ended_is_gone_at_once(tmp_path: Path) -> None:
+    thinner = ThinnerStart([str(tmp_path), "b1", "9000000", "20000"])
+    thinner.end()  # none was begun
+    thinner.start()
+    (process,) = psutil.Process().children()
+    thinner.end()
+    assert not process.is_running()
