@@ -90,11 +90,17 @@ describe("labels", () => {
     expect(placeLabels([label(0, 0)], [boxAround({ x: 0, y: 0 }, 500, 500)])).toEqual([null]);
   });
 
-  it("are cut by the edge of the view only where no other spot is free", () => {
+  it("are never cut by the edge of the view, but where what they name is outside it", () => {
     const view = { left: 0, top: 0, right: 100, bottom: 100 };
-    const [spot] = placeLabels([label(90, 50)], [], view);
-    expect(spot && lies(boxOf(label(90, 50), spot), view)).toBe(true);
     expect(placeLabels([label(500, 50)], [], view)[0]).toEqual({ x: 500, y: 64, leads: false });
+    for (let crowd = 1; crowd <= 12; crowd++) {
+      const labels = Array.from({ length: crowd }, (_, n) => label((n * 37) % 100, (n * 61) % 100));
+      const spots = placeLabels(labels, [], view);
+      expect(spots[0]).not.toBeNull();
+      spots.forEach((spot, n) => {
+        if (spot) expect(lies(boxOf(labels[n] as Label, spot), view)).toBe(true);
+      });
+    }
   });
 
   it("of rooms stand on their point where that is free", () => {

@@ -87,9 +87,19 @@ export const lies = (box: PixelBox, within: PixelBox): boolean =>
   within.top <= box.top &&
   box.bottom <= within.bottom;
 
+/** Return a label's spot, moved so far that the label lies wholly within a view. */
+function moveInto(label: Label, { x, y, leads }: Spot, view: PixelBox): Spot {
+  const [halfWidth, halfHeight] = [label.width / 2, label.height / 2];
+  return {
+    x: Math.min(Math.max(x, view.left + halfWidth), view.right - halfWidth),
+    y: Math.min(Math.max(y, view.top + halfHeight), view.bottom - halfHeight),
+    leads,
+  };
+}
+
 /**
- * Return a spot for each label, null for one that has no room. `blocked` is never covered; a spot that
- * the edge of the view cuts is taken only where no other is free.
+ * Return a spot for each label, null for one that has no room. `blocked` is never covered; the edge of
+ * the view cuts no name of what is in view.
  */
 export function placeLabels(
   labels: readonly Label[],
@@ -102,10 +112,13 @@ export function placeLabels(
     const free = (spot: Spot): boolean => {
       const box = boxOf(label, spot);
       if (taken.some((other) => meet(box, other))) return false;
-      return !marks.some((mark, other) => other !== index && meet(box, mark));
+      return !marks.some((mark, other) => (other !== index || label.mark > 0) && meet(box, mark));
     };
-    const spots = spotsOf(label).filter(free);
-    const spot = spots.find((one) => lies(boxOf(label, one), view)) ?? spots[0] ?? null;
+    const spots = spotsOf(label);
+    const whole = spots.filter((one) => lies(boxOf(label, one), view));
+    const moved = spots.map((one) => moveInto(label, one, view));
+    const inView = lies(boxAround(label.at, 0, 0), view);
+    const spot = (inView ? [...whole, ...moved] : spots).find(free) ?? null;
     if (spot !== null) taken.push(boxOf(label, spot));
     return spot;
   });
