@@ -21,8 +21,9 @@ SURE = "go to the kitchen"
 UNSURE = "would it be a bother to glance at whatever the stove is up to"
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def mock() -> Iterator[RunningMock]:
+    """Return a server of its own: one counts who has left it, also those of a test before."""
     with running_mock() as running:
         yield running
 
