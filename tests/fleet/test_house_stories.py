@@ -105,10 +105,9 @@ def test_a_robot_low_on_battery_is_passed_over_and_sent_to_its_dock_once(
     own_order = {"rule": {"kind": "event", "event": "battery_low"}, "state": "active"}
     for each in (robot, own):
         each.rule(places=["attic", "dock"])
-    own.rule(orders=[own_order])
+    own.rule(orders=[own_order], battery=0.15)
     house.add(robot, own)
-    for each in (robot, own):
-        each.rule(battery=0.15)
+    robot.rule(battery=0.15)  # so that the other one is known as low by then
 
     def sent() -> list[dict[str, Any]]:
         told = house.client.get("/v1/missions").json()["missions"]
