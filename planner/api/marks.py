@@ -57,10 +57,10 @@ def routes(services: Services) -> APIRouter:
     @router.put("", operation_id="put_marks")
     async def put(order: Marking) -> dict[str, Any]:
         """Put marks in force: the bridge keeps the robot to them, and routes keep off them."""
+        drawn = await _check(services, order.marks)
         now = marks_hash(services.memory.drawn.marks)
         if order.before != now:
             raise _problem("marks_changed", f"they are {now or 'none'} by now; read them again")
-        drawn = await _check(services, order.marks)
         answer = await services.robot.offer_marks(_request(services, fence_text(drawn), order))
         if answer is None:
             raise HttpProblem(503, "bridge_silent", "the bridge did not answer within 2 s")

@@ -95,7 +95,8 @@ class HomeGateway:
         self._halt = DirectHalt(launch)
         self._stops = 0
         self._sent: dict[str, bytes] = {}
-        self._refused_s, self._unsaid = float("-inf"), 0
+        self._refused: dict[str, tuple[float, int]] = {}
+        """Of each code: when it was told last, and how many have come since."""
         self._refusals: list[home_state.Json] = []
 
     async def run(self) -> None:
@@ -191,13 +192,14 @@ class HomeGateway:
             self._refuse("planner_down", str(trouble))
 
     def _refuse(self, code: str, detail: str) -> None:
-        """Log a refusal and tell the home, at most once a second."""
+        """Log a refusal and tell the home, each code at most once a second."""
         now_s = time.monotonic()
-        if now_s - self._refused_s < REFUSED_S:
-            self._unsaid += 1
+        told_s, unsaid = self._refused.get(code, (float("-inf"), 0))
+        if now_s - told_s < REFUSED_S:
+            self._refused[code] = told_s, unsaid + 1
             return
-        more = f" (and {self._unsaid} before)" if self._unsaid else ""
-        self._refused_s, self._unsaid = now_s, 0
+        more = f" (and {unsaid} before)" if unsaid else ""
+        self._refused[code] = now_s, 0
         log.warning("%s: %s%s", code, detail, more)
         self._refusals.append(
             {"event_type": "refused", "code": code, "message": f"{code}: {detail}"}

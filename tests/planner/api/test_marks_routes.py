@@ -73,6 +73,8 @@ def test_one_who_drew_from_older_marks_overwrites_nothing(
     first = client.put("/v1/marks", json=body(services)).json()
     late = client.put("/v1/marks", json=body(services, keep_outs=[]))
     assert (late.status_code, late.json()["code"]) == (409, "marks_changed")
+    elsewhere = client.put("/v1/marks", json=body(services, map_id="1" * 16))
+    assert elsewhere.json()["code"] == "marks_of_another_map", "not as if somebody had changed them"
     after = client.put("/v1/marks", json={**body(services, keep_outs=[]),
                                           "before": first["marks_hash"]})  # fmt: skip
     assert after.status_code == 200

@@ -244,6 +244,7 @@ def test_a_broker_that_is_slow_replays_an_hour_of_orders_or_answers_nothing(
         await ears.client.publish(f"pons/{ROBOT}/stop", b"PRESS", qos=1)
         await until(lambda: made.stops() > 0, made.log.read_text())
         line.late_s, line.is_shut = 0.0, True
+        await ears.client.publish(f"pons/{ROBOT}/sentence", b"", qos=1)  # told by a code of its own
         for number in range(360):
             payload = f"go to room {number}".encode()
             await ears.client.publish(f"pons/{ROBOT}/sentence", payload, qos=1)
