@@ -17,12 +17,15 @@ from planner.api.problems import HttpProblem
 from planner.api.schemas import Body, OperatorOrder
 from planner.language.catalogue import CATALOGUE, say
 from planner.site.fence_check import FenceRefusal
-from planner.site.marks import check_marks, marks_hash, round_marks
+from planner.site.marks import MarkExit, check_marks, find_exit, marks_hash, round_marks
+from planner.site.taught_place_errors import PlaceRefusal
 from wire import VIRTUAL_KEY, MarksFile, MarksRequest, sign_marks
 from wire.bounded_types import Fingerprint
 from wire.fence import fence_text
 
-_STATUS = {"mark_holds_robot": 409, "mark_too_near": 409, "marks_busy": 409}
+_STATUS = dict.fromkeys(
+    ("mark_holds_robot", "mark_too_near", "mark_without_exit", "marks_busy", "marks_changed"), 409
+)
 
 
 class Drawing(Body):
@@ -53,6 +56,20 @@ def routes(services: Services) -> APIRouter:
         """Say whether marks could come into force here and now, and give the text to be signed."""
         text = fence_text(await _check(services, drawing.marks))
         return {"text": text}
+
+    @router.post("/exit", operation_id="find_exit")
+    async def exit_of(drawing: Drawing) -> MarkExit:
+        """Say where the robot would leave marks that hold it, by the shortest way; nothing moves.
+
+        Raises:
+            HttpProblem: ``mark_without_exit``.
+        """
+        known = services.memory
+        try:
+            marked = known.drawn.site_with(round_marks(drawing.marks))
+            return await find_exit(marked, known.survey, known.radius_m)
+        except PlaceRefusal as refused:
+            raise _problem("mark_without_exit", refused.detail or refused.code) from None
 
     @router.put("", operation_id="put_marks")
     async def put(order: Marking) -> dict[str, Any]:
@@ -126,5 +143,4 @@ def _request(services: Services, text: str, order: Marking) -> MarksRequest:
 def _problem(code: str, detail: str) -> HttpProblem:
     """Return a refusal, with a sentence in both languages where the code has one."""
     told = say(f"marks.{code}").model_dump() if CATALOGUE.has(f"marks.{code}") else None
-    status = _STATUS.get(code, 409 if code == "marks_changed" else 422)
-    return HttpProblem(status, code, detail, message=told)
+    return HttpProblem(_STATUS.get(code, 422), code, detail, message=told)

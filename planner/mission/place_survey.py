@@ -54,8 +54,8 @@ class RobotSurvey:
             raise PlaceRefusal("robot_moving")
         return here
 
-    async def check_way(self, start: Pose2, goal: Pose2, *, sees_from_m: float = 0.0) -> None:
-        """Accept a point that a route reaches, without being moved beside an obstacle.
+    async def check_way(self, start: Pose2, goal: Pose2, *, sees_from_m: float = 0.0) -> float:
+        """Return the length [m] of the way to a point, which is not moved beside an obstacle.
 
         Args:
             start: where the way begins.
@@ -77,3 +77,4 @@ class RobotSurvey:
         if not (sees_from_m or result.moved_goal_m <= MOST_MOVED_M):
             detail = f"free floor is {result.moved_goal_m:.2f} m away"
             raise PlaceRefusal("place_in_obstacle", detail)
+        return result.length_m

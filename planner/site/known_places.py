@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from itertools import chain, count
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from maps.room_proposals import RoomProposal, read_proposals
 from planner.plan import Skill, Vocabulary
@@ -23,7 +23,12 @@ from planner.site.places import Names, Place, drawn_alike, owner_of, squash
 from planner.site.polygon import area_m2
 from planner.site.site import Site
 from planner.site.site_view import SiteView, calling, facts_of, vocabulary_of
-from planner.site.taught_place_check import check_not_order, check_spot, plain_name
+from planner.site.taught_place_check import (
+    PlaceSurvey,
+    check_not_order,
+    check_spot,
+    plain_name,
+)
 from planner.site.taught_place_errors import PlaceRefusal
 from planner.site.taught_places import MAX_HERE, MAX_KEPT, TaughtPlace, TaughtPlaces
 from wire import MarksFile
@@ -31,27 +36,6 @@ from wire.geometry import Pose2
 
 T = TypeVar("T")
 _NO_ID = re.compile(r"[^a-z0-9]+")
-
-
-class PlaceSurvey(Protocol):
-    """Tell where the robot is and whether it could drive to a point."""
-
-    def robot_pose(self, map_id: str, *, must_stand: bool) -> Pose2:
-        """Return the robot in ``map``.
-
-        Raises:
-            PlaceRefusal: ``pose_unknown``, ``map_mismatch`` or ``robot_moving``.
-        """
-        ...
-
-    async def check_way(self, start: Pose2, goal: Pose2) -> None:
-        """Accept a point of ``map`` that the robot can drive to and stand on.
-
-        Raises:
-            PlaceRefusal: ``place_unreachable``, ``place_in_obstacle``, ``place_outside_map`` or
-                ``route_unavailable``.
-        """
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,8 +80,8 @@ class KnownPlaces:
         self.drawn = SiteMarks(site, marks)
         self.site = self.drawn.site
         """With the fence less what people drew on the map."""
-        self._store, self._radius_m = store, radius_m
-        self._survey: PlaceSurvey | None = None
+        self._store, self.radius_m = store, radius_m
+        self.survey: PlaceSurvey | None = None
         self._clock = clock
         self._lock = asyncio.Lock()
         self._proposed = read_proposals(site.folder)
@@ -140,7 +124,7 @@ class KnownPlaces:
 
     def use(self, survey: PlaceSurvey) -> None:
         """Take the source of the robot's pose, which also finds ways to a point."""
-        self._survey = survey
+        self.survey = survey
 
     async def keep_marks(self, marks: MarksFile) -> None:
         """Keep what people drew on the map. Raises OSError; nothing changed then."""
@@ -237,7 +221,7 @@ class KnownPlaces:
             if why_not is None:
                 good.append(kept.as_place())
         self._shown, self._places = tuple(shown), (*self.site.places, *good)
-        self._facts = facts_of(self.site, tuple(good), self._radius_m)
+        self._facts = facts_of(self.site, tuple(good), self.radius_m)
         if self._skills:
             from planner.language.templates.skills import with_skills
 
@@ -293,14 +277,14 @@ class KnownPlaces:
 
     async def _spot(self, lesson: Lesson) -> Pose2:
         """Return where the place is to be: known, on this map, free and within reach."""
-        if self._survey is None:
+        if self.survey is None:
             raise PlaceRefusal("pose_unknown")
-        here = self._survey.robot_pose(self.site.map_id, must_stand=lesson.pose is None)
+        here = self.survey.robot_pose(self.site.map_id, must_stand=lesson.pose is None)
         if lesson.pose is None:
             check_spot(self.site, here, 0.0)
             return here
-        check_spot(self.site, lesson.pose, self._radius_m)
-        await self._survey.check_way(here, lesson.pose)
+        check_spot(self.site, lesson.pose, self.radius_m)
+        await self.survey.check_way(here, lesson.pose)
         return lesson.pose
 
     def _new_id(self, lesson: Lesson, names: Names) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 from math import ceil, hypot
+from typing import Protocol
 
 from maps.grid import FREE
 from planner.language.folding import fold, fold_width, unmask
@@ -22,6 +23,27 @@ _BESIDE_ANY = frozenset(
     {"cjk", "hiragana", "katakana", "katakana-hiragana", "hangul", "bopomofo", "modifier"}
 )
 """None of their letters is drawn as a Latin one, and names have both: A区."""
+
+
+class PlaceSurvey(Protocol):
+    """Tell where the robot is and whether it could drive to a point."""
+
+    def robot_pose(self, map_id: str, *, must_stand: bool) -> Pose2:
+        """Return the robot in ``map``.
+
+        Raises:
+            PlaceRefusal: ``pose_unknown``, ``map_mismatch`` or ``robot_moving``.
+        """
+        ...
+
+    async def check_way(self, start: Pose2, goal: Pose2) -> float:
+        """Return the length [m] of the way to a point of ``map`` that the robot can stand on.
+
+        Raises:
+            PlaceRefusal: ``place_unreachable``, ``place_in_obstacle``, ``place_outside_map`` or
+                ``route_unavailable``.
+        """
+        ...
 
 
 def plain_name(name: str) -> str:

@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Page
 
 from tests.e2e.robot import Robot
+from tests.e2e.system import ENDED
 from tests.web.conftest import OpenPage, arrived, set_off
 from tests.web.person import click_at, ended
 
@@ -105,6 +106,29 @@ def test_an_outline_is_drawn_saved_and_kept_to(
     page.get_by_role("button", name="Delete: Stay out 1").click()
     page.locator("#announcer", has_text="Deleted").wait_for()
     assert unmarked.system.http("GET", "/v1/marks").body["marks"]["keep_outs"] == []
+
+
+def test_a_robot_that_an_outline_holds_is_sent_out_and_the_outline_is_saved_then(
+    unmarked: Robot, open_page: OpenPage
+) -> None:
+    here = unmarked.judge.truth.base_in_map
+    page = open_page(PHONE)
+    around = [(here.x_m + x, here.y_m + y) for x, y in ((-0.4, -0.4), (0.4, -0.4), (0.4, 0.4))]
+    click_at(page, here.x_m - 0.4, here.y_m + 0.4)
+    page.click("#mark-out")
+    for corner in around:
+        click_at(page, *corner)
+    page.click("#mark-save")
+    page.locator("#outline", has_text="I stand inside. Out of it are").wait_for()
+    set_off(unmarked, lambda: page.click("#mark-leave"))
+    page.locator("#announcer", has_text="Saved").wait_for(timeout=40_000)
+    marks = unmarked.system.http("GET", "/v1/marks").body
+    assert (len(marks["marks"]["keep_outs"]), marks["agreed"]) == (1, True)
+    there = unmarked.judge.truth.base_in_map
+    assert max(abs(there.x_m - here.x_m), abs(there.y_m - here.y_m)) > 0.4, "outside"
+    back = {"map_id": marks["map_id"], "points": [{"x_m": SPOTS[0][0], "y_m": SPOTS[0][1]}]}
+    goal = unmarked.system.http("POST", "/v1/goals", back).body
+    unmarked.system.until_goal(goal["id"], *ENDED, limit_s=40.0)
 
 
 def test_an_outline_that_crosses_itself_can_not_be_saved(

@@ -81,6 +81,16 @@ def test_one_who_drew_from_older_marks_overwrites_nothing(
     assert after.json()["marks"]["keep_outs"] == []
 
 
+def test_without_a_way_out_of_marks_that_is_said(
+    client: TestClient, services: FakeServices
+) -> None:
+    asked = {"marks": body(services, keep_outs=[HOME])["marks"]}
+    answer = client.post("/v1/marks/exit", json=asked)  # this planner has no pose yet
+    assert (answer.status_code, answer.json()["code"]) == (409, "mark_without_exit")
+    assert answer.json()["message"]["zh"]
+    assert services.robot.drawn == []
+
+
 @pytest.mark.parametrize("way", ["check", "put"])
 @pytest.mark.parametrize(
     ("changes", "code", "status"),

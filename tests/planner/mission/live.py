@@ -7,6 +7,7 @@ import sqlite3
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 from itertools import count
+from math import hypot
 from pathlib import Path
 from typing import Any
 
@@ -62,7 +63,8 @@ class StraightRouter:
         await asyncio.sleep(0)
         if self.failure is not None:
             raise RouteFailure(self.failure)
-        return RouteResult(straight(request.start, request.goal), 1.0, 0.0, False, 0.0)
+        way_m = hypot(request.goal.x_m - request.start.x_m, request.goal.y_m - request.start.y_m)
+        return RouteResult(straight(request.start, request.goal), way_m, 0.0, False, 0.0)
 
 
 class Together:

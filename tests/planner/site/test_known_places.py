@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from datetime import UTC, datetime
+from math import hypot
 from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from maps import load_map
+from maps.grid import FREE
 from maps.new_site import new_site
 from planner.brain.interface import ThinkRequest
 from planner.brain.prompt import Prompt
 from planner.bridge_client import Aged
 from planner.mission.place_survey import RobotSurvey
+from planner.navigation import RouteRequest, RouteResult
 from planner.site import (
     MAX_HERE,
     PlaceRefusal,
@@ -24,12 +30,13 @@ from planner.site import (
     TaughtPlaces,
 )
 from planner.site.known_places import KnownPlaces, Lesson
+from planner.site.marks import MarkExit, find_exit
 from planner.site.places import Names
 from planner.site.taught_places import FILE, TaughtFile
 from planner.state_database import StateDatabase
 from tests.planner.mission.fakes import status
 from tests.planner.mission.live import StraightRouter
-from wire import Pose2, Status, Twist2
+from wire import MarksFile, Pose2, Status, Twist2
 
 ROOT = Path(__file__).resolve().parents[3]
 SITE = Site.load(ROOT / "sites" / "two_room")
@@ -351,3 +358,58 @@ def test_a_room_that_nobody_proposed_can_not_be_named(tmp_path: Path) -> None:
     site = imported(tmp_path / "flat")
     kept = memory(tmp_path, Bridge(map_id=site.map_id), site=site)
     assert refused(kept, "attic", room="room_9") == "unknown_room"
+
+
+class LongWestward(StraightRouter):
+    """Find ways that are three times as long where they lead west, as round a wall."""
+
+    async def route(self, request: RouteRequest) -> RouteResult:
+        found = await super().route(request)
+        west = request.goal.x_m < request.start.x_m - 0.01
+        return replace(found, length_m=found.length_m * (3.0 if west else 1.0))
+
+
+def exit_of(kept: KnownPlaces, marks: MarksFile) -> MarkExit:
+    return asyncio.run(find_exit(kept.drawn.site_with(marks), kept.survey, kept.radius_m))
+
+
+def box(west_m: float, south_m: float, east_m: float, north_m: float) -> MarksFile:
+    corners = ((west_m, south_m), (east_m, south_m), (east_m, north_m), (west_m, north_m))
+    return MarksFile(version=1, map_id=SITE.map_id, keep_outs=(corners,))
+
+
+@given(st.floats(0.05, 0.5), st.floats(0.05, 0.8), st.floats(0.05, 0.8), st.floats(0.05, 0.5))
+def test_the_way_out_of_marks_ends_on_free_floor_outside_of_them(
+    west_m: float, south_m: float, east_m: float, north_m: float
+) -> None:
+    kept = KnownPlaces(SITE)
+    kept.use(RobotSurvey(Bridge(), StraightRouter()))
+    marks = box(HERE.x_m - west_m, HERE.y_m - south_m, HERE.x_m + east_m, HERE.y_m + north_m)
+    out = exit_of(kept, marks)
+    marked = kept.drawn.site_with(marks)
+    assert marked.fence.allows(out.x_m, out.y_m)
+    assert marked.fence.border_distance_m(out.x_m, out.y_m) >= 0.3
+    assert SITE.grid.at(out.x_m, out.y_m) == FREE
+    assert out.metres == pytest.approx(hypot(out.x_m - HERE.x_m, out.y_m - HERE.y_m))
+    assert kept.drawn.marks is None, "asked only"
+
+
+def test_the_way_out_is_the_shortest_to_drive_not_the_nearest_by_air() -> None:
+    spot = Pose2(1.5, 4.4, 0.0)
+    marks = box(spot.x_m - 0.3, spot.y_m - 1.2, spot.x_m + 0.5, spot.y_m + 1.2)
+    found = []
+    for router in (StraightRouter(), LongWestward()):
+        kept = KnownPlaces(SITE)
+        kept.use(RobotSurvey(Bridge(base_in_map=spot), router))
+        found.append(exit_of(kept, marks))
+    nearest, shortest = found
+    assert nearest.x_m < spot.x_m < shortest.x_m
+    assert shortest.metres < 3.0 * nearest.metres
+
+
+def test_no_way_out_of_marks_is_refused() -> None:
+    kept = KnownPlaces(SITE)
+    kept.use(RobotSurvey(Bridge(), StraightRouter("no_route")))
+    for marks in (box(0.5, 3.7, 1.5, 4.7), box(-50.0, -50.0, 50.0, 50.0)):
+        with pytest.raises(PlaceRefusal, match="place_unreachable"):
+            exit_of(kept, marks)

@@ -7,14 +7,17 @@ import {
   crosshair,
   deleteMark,
   drawn,
+  exit,
   facing,
   goTo,
+  leaving,
   marking,
   marksShown,
   moving,
   row,
   saveOutline,
   saving,
+  sendOut,
   slowMps,
   undoCorner,
 } from "../state/pointing";
@@ -89,7 +92,14 @@ function Drawing() {
         })}
         {flaw && now.corners.length >= 3 ? ` ${t(`marks.flaw_${flaw}`)}` : ""}
         {now.corners.length >= 3 && <small class="fine"> {t("marks.drag")}</small>}
+        {exit.value && ` ${t("marks.holds", { metres: exit.value.metres.toFixed(1) })}`}
+        {leaving.value && ` ${t("marks.leaving")}`}
       </span>
+      {exit.value && (
+        <button type="button" class="main" id="mark-leave" onClick={() => void sendOut()}>
+          {t("marks.leave")}
+        </button>
+      )}
       {now.kind === "slow" && (
         <select
           aria-label={t("marks.speed")}

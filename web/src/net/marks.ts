@@ -32,6 +32,13 @@ export async function checkMarks(marks: Marks): Promise<string> {
   return ((await call("POST", "v1/marks/check", { marks })) as { readonly text: string }).text;
 }
 
+/** Where the robot would leave marks that hold it, in map, and how long the way there is. */
+export type MarkExit = { readonly x_m: number; readonly y_m: number; readonly metres: number };
+
+export async function fetchExit(marks: Marks): Promise<MarkExit> {
+  return (await call("POST", "v1/marks/exit", { marks })) as MarkExit;
+}
+
 export async function putMarks(
   marks: Marks,
   before: string | null,

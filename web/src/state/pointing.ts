@@ -11,22 +11,24 @@ import {
   withCornerBetween,
   withTrail,
 } from "../map/outline";
-import type { Point } from "../map/resolve";
+import { contains, type Point } from "../map/resolve";
 import {
   checkMarks,
+  fetchExit,
   fetchMarks,
   type GoalPoint,
   givePoints,
+  type MarkExit,
   type Marking,
   type Marks,
   putMarks,
 } from "../net/marks";
-import { movePlace } from "../net/api";
+import { ApiError, movePlace } from "../net/api";
 import { proveGoal, proveText } from "../net/proof";
 import type { Place } from "../wire/types";
 import { attempt } from "./acts";
 import { tell } from "./note";
-import { grid, status } from "./store";
+import { grid, isBusy, status } from "./store";
 
 /** The point whose menu is open. */
 export const menu = signal<Point | null>(null);
@@ -45,6 +47,10 @@ export type Drawn = {
 /** The outline that is being drawn. */
 export const drawn = signal<Drawn | null>(null);
 export const slowMps = signal(0.2);
+/** Where the robot leaves the outline that is drawn round it; null: nothing holds it. */
+export const exit = signal<MarkExit | null>(null);
+/** The robot was sent out of the outline, which is saved once it stands outside. */
+export const leaving = signal(false);
 /** A place that is being moved, and where to. */
 export type Moving = { readonly place: Place; readonly to: Point };
 export const moving = signal<Moving | null>(null);
@@ -82,6 +88,18 @@ export function startPointing(): () => void {
       }
     }),
     effect(() => {
+      if (drawn.value === null) exit.value = null;
+      if (drawn.value === null || exit.value) leaving.value = false;
+    }),
+    effect(() => {
+      const now = status.value;
+      const pose = now?.base_in_map;
+      if (!leaving.value || !drawn.value || !pose || now.mode === "ACTIVE") return;
+      if (contains(drawn.value.corners, { x: pose.x_m, y: pose.y_m })) return;
+      leaving.value = false;
+      void saveOutline();
+    }),
+    effect(() => {
       const pose = status.value?.base_in_map;
       if (pose) trail.value = withTrail(trail.peek(), { x: pose.x_m, y: pose.y_m });
     }),
@@ -99,14 +117,15 @@ export async function loadMarks(): Promise<void> {
   }
 }
 
-export async function goTo(points: readonly GoalPoint[], replace: boolean): Promise<void> {
+export async function goTo(points: readonly GoalPoint[], replace: boolean): Promise<boolean> {
   const map = grid.value?.map_id;
   closeAll();
-  if (!map) return;
+  if (!map) return false;
   const went = await attempt(() =>
     givePoints(points, map, language.value, replace, proveGoal(status.value)),
   );
   if (went) tell(t("point.sent"));
+  return went;
 }
 
 export function addToRow(point: GoalPoint): void {
@@ -178,6 +197,21 @@ export async function saveOutline(): Promise<void> {
   }
 }
 
+/** Send the robot out of the outline that holds it; the outline counts once it stands outside. */
+export async function sendOut(): Promise<void> {
+  const to = exit.value;
+  if (!to) return;
+  exit.value = null;
+  leaving.value = await goTo([{ x_m: to.x_m, y_m: to.y_m }], isBusy.value);
+}
+
+/** Find the way out for a robot that marks hold and return null; throws what else refused them. */
+async function seeExit(refused: unknown, marks: Marks): Promise<null> {
+  if (!(refused instanceof ApiError) || refused.code !== "mark_holds_robot") throw refused;
+  exit.value = await fetchExit(marks);
+  return null;
+}
+
 /** Take a mark's outline up to be changed; it stays in force until the other is saved. */
 export function changeMark(kind: Drawn["kind"], index: number): void {
   const now = marksShown.value;
@@ -232,13 +266,16 @@ export async function dropPlace(): Promise<void> {
 async function save(marks: Marks): Promise<boolean> {
   if (saving.value) return false;
   saving.value = true;
+  let saved = false;
   const went = await attempt(async () => {
-    const text = await checkMarks(marks);
+    const text = await checkMarks(marks).catch((error: unknown) => seeExit(error, marks));
+    if (text === null) return undefined; // the map's tools offer the way out
     const proof = proveText("marks", text, status.value);
     marking.value = await putMarks(marks, marking.value?.marks_hash ?? null, proof);
+    saved = true;
     return undefined;
   });
   if (!went) await loadMarks();
   saving.value = false;
-  return went;
+  return saved;
 }
