@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from planner.state_database import StateDatabase
 
 MOST_PEOPLE = 64
-TOKEN_BYTES = 32
+TOKEN_BYTES = 24
+"""In hexadecimal: one that begins with a hyphen is an option on a command line."""
 MOST_ID_CHARACTERS = 32
 OWN_IDS = frozenset({"api", "cli", "page", "planner", "bridge", "owner", "mqtt"})
 """What the robot's own doors are written down as; a person of that id would be taken for one."""
@@ -115,7 +116,7 @@ class People:
             raise PeopleError("person_exists", f"{name!r} is known; remove that one first")
         if not len(taken) < MOST_PEOPLE:
             raise PeopleError("people_full", f"{MOST_PEOPLE} people are known; remove one first")
-        token = secrets.token_urlsafe(TOKEN_BYTES)
+        token = secrets.token_hex(TOKEN_BYTES)
         person = Person(
             _id_of(name, taken | OWN_IDS), name, role, self._clock().isoformat("T", "seconds")
         )

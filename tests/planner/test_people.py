@@ -30,6 +30,11 @@ def test_a_person_is_found_by_the_token_alone_and_after_a_restart(tmp_path: Path
         assert known.list_all() == [ana]
 
 
+def test_a_token_is_one_word_of_a_command_line(tmp_path: Path) -> None:
+    kept = people_in(tmp_path)
+    assert all(kept.add(f"Ana {n}", Role.AGENT)[1].isalnum() for n in range(20))
+
+
 def test_no_file_of_the_home_holds_a_token(tmp_path: Path) -> None:
     database = StateDatabase(tmp_path)
     _, token = People(database).add("Ana", Role.OPERATOR)
