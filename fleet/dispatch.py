@@ -68,7 +68,7 @@ class Dispatcher:
         if mission.state != WAITING or mission.question:
             return None
         answering = [name for name in self._candidates(mission) if self._watches[name].is_ready]
-        return self._why.get(mission.id, "robots_busy" if answering else "nobody_answers")
+        return self._why.get(mission.id, "being_chosen" if answering else "nobody_answers")
 
     def instead_of(self, mission: MissionRow) -> list[str]:
         """Return the robots that are free and could take what waits for others."""
@@ -98,7 +98,9 @@ class Dispatcher:
                 for robot in turns[:1]:
                     await self._claim(mission, robot, frozenset())
                 continue
-            if not may or len(batch) == len(choice.free) or self._looks >= MOST_LOOKS:
+            if may and len(batch) == len(choice.free):
+                may = self._wait(mission, "robots_busy")
+            if not may or self._looks >= MOST_LOOKS:
                 continue
             if ways := await self._look_ahead(mission, may, choice):
                 batch.append((mission, ways))

@@ -187,6 +187,7 @@ WORDS: dict[str, tuple[int, str, str]] = {
         "停止不能作为定时命令；请直接停止。",
     ),
     # What a mission waits for, or why it ended without a robot's outcome.
+    "being_chosen": (200, "A robot is being chosen.", "正在选择机器人。"),
     "robots_busy": (200, "All robots that may go are busy.", "可去的机器人都在忙。"),
     "nobody_answers": (200, "No robot that may go answers.", "可去的机器人都没有应答。"),
     "nobody_can": (200, "No robot that may go can do this.", "可去的机器人都做不了。"),
