@@ -1,7 +1,9 @@
 import { afterEach, describe, expect, it } from "vitest";
 import { language } from "../src/i18n";
 import { told } from "../src/panels/events";
+import { en } from "../src/i18n/en";
 import { mindWords } from "../src/panels/MindLine";
+import { limitWords } from "../src/panels/steps";
 import { decode } from "../src/wire/decode";
 import type { Mind } from "../src/wire/types";
 import { goal, robot, snapshot } from "./examples";
@@ -62,5 +64,17 @@ describe("who plans", () => {
     const brain = { name: "offline", version: "1", fallback_from: 7, fallback_message: null };
     const goals = [{ ...goal("a"), brain }];
     expect(decode(JSON.stringify({ ...snapshot(), goals }))).toBeNull();
+  });
+});
+
+describe("what holds a robot back", () => {
+  const gates = Object.keys(en).filter((key) => key.startsWith("by."));
+  it("is named in words, and in no capitals of a program", () => {
+    expect(gates.length).toBeGreaterThan(5);
+    for (const key of gates) {
+      const code = key.slice("by.".length);
+      expect(limitWords(code)).toBe(en[key as keyof typeof en]);
+      expect(limitWords(code)).not.toBe(code);
+    }
   });
 });

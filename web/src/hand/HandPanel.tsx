@@ -7,6 +7,7 @@ import { bridgeFresh, currentGoals, log, pageFresh, shown, shownStatus } from ".
 import { steady } from "../state/steady";
 import { inSetup } from "../state/trial";
 import { reasons } from "../panels/reasons";
+import { isGate, limitWords } from "../panels/steps";
 import { deflection, keysDeflection, steers } from "./inputs";
 import { callMyself, drop, hand, openStick, ownId, ownName, padName, share, take } from "./stick";
 
@@ -44,6 +45,12 @@ const driverNow = steady(() => {
   return driver === null || driver.id === ownId.value ? null : driver.name;
 });
 
+/** What of its surroundings holds the robot back now. */
+const gateNow = steady(() => {
+  const by = shownStatus.value?.limits.by ?? "";
+  return isGate(by) ? by : null;
+});
+
 const othersWords = (name: string): string =>
   name === "" ? t("hand.someone") : t("hand.other", { name });
 
@@ -78,7 +85,8 @@ function Stick() {
 /** Say who drives, and to whom asked for the stick meanwhile when it is free; else why nobody does. */
 function words(): string {
   const { open, held, driving, why } = stickNow.value;
-  if (driving) return t("hand.you");
+  const gate = gateNow.value;
+  if (driving) return gate === null ? t("hand.you") : t("hand.gated", { what: limitWords(gate) });
   const other = driverNow.value;
   const refused = why === "hand_taken"; // so only while that hand drives
   if (other !== null && held === null)

@@ -32,6 +32,7 @@ export const en = {
   "stop.confirmed": "Stop confirmed by the robot after {ms} ms.",
 
   "motion.limit": "at most {speed} metres a second · {what}",
+  "motion.gated": "held back by {what}",
   "motion.moving": "Moving, {speed} metres a second",
   "motion.standing": "Standing still",
   "motion.unknown": "No word from the robot: nobody here knows whether it moves.",
@@ -512,6 +513,7 @@ export const en = {
   "hand.full": "All it may",
   "hand.name": "Your name, as others read it",
   "hand.you": "You drive.",
+  "hand.gated": "You drive. The robot is held back by {what}.",
   "hand.other": "{name} drives.",
   "hand.someone": "Somebody else drives.",
   "hand.ready": "Ready: nobody drives by hand.",
@@ -671,11 +673,12 @@ export const en = {
   "limits.left": "Left until a person acts",
 
   "by.robot": "its own settings",
-  "by.obstacle": "obstacle",
-  "by.unseen": "not seen by the lidar",
-  "by.fence": "fence",
+  "by.obstacle": "something close by",
+  "by.unseen": "what the lidar does not see",
+  "by.fence": "the edge of where it may drive",
   "by.contact": "bumper or cliff sensor",
   "by.no_scan": "no lidar scan",
+  "by.pose_lost": "not knowing where it is",
   "by.unpowered": "no power",
   "by.weak_brakes": "brakes under half of what is configured",
 

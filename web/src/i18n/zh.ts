@@ -33,6 +33,7 @@ export const zh: Record<Key, string> = {
   "stop.confirmed": "机器人已确认停止，用时 {ms} 毫秒。",
 
   "motion.limit": "限速每秒 {speed} 米 · {what}",
+  "motion.gated": "受限于{what}",
   "motion.moving": "正在移动，每秒 {speed} 米",
   "motion.standing": "静止",
   "motion.unknown": "没有机器人的消息：此处无法知道它是否在动。",
@@ -501,6 +502,7 @@ export const zh: Record<Key, string> = {
   "hand.full": "允许的最快",
   "hand.name": "您的名字（其他人会看到）",
   "hand.you": "您正在驾驶。",
+  "hand.gated": "您正在驾驶。机器人受限于{what}。",
   "hand.other": "{name}正在驾驶。",
   "hand.someone": "其他人正在驾驶。",
   "hand.ready": "可以驾驶：现在没有人手动驾驶。",
@@ -660,11 +662,12 @@ export const zh: Record<Key, string> = {
   "limits.left": "需人操作前剩余",
 
   "by.robot": "机器人设置",
-  "by.obstacle": "障碍物",
-  "by.unseen": "激光雷达看不到",
-  "by.fence": "围栏",
+  "by.obstacle": "近处的物体",
+  "by.unseen": "激光雷达看不到的地方",
+  "by.fence": "可行驶区域的边界",
   "by.contact": "防撞条或悬崖传感器",
   "by.no_scan": "没有激光雷达数据",
+  "by.pose_lost": "不知道自己在哪里",
   "by.unpowered": "未解锁",
   "by.weak_brakes": "制动力不足设定的一半",
 

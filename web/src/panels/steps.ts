@@ -71,6 +71,18 @@ export function limitWords(by: string): string {
   return known === by ? rowWords(by.toUpperCase()) : known;
 }
 
+const GATES: ReadonlySet<string> = new Set([
+  "obstacle",
+  "unseen",
+  "fence",
+  "contact",
+  "no_scan",
+  "pose_lost",
+]);
+
+/** Say whether what bounds the robot is where it is: the number of its speed limit is then not what holds it back. */
+export const isGate = (by: string): boolean => GATES.has(by);
+
 /** Name a brain: the built-in one in words, a model by its own name. */
 export const brainName = (name: string): string => (name === "offline" ? t("mind.offline") : name);
 

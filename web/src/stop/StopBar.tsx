@@ -1,7 +1,7 @@
 /** Show the Stop button, on every view, and what the bridge has said to it. */
 import { t } from "../i18n";
 import { seconds, steadySpeed } from "../panels/format";
-import { limitWords } from "../panels/steps";
+import { isGate, limitWords } from "../panels/steps";
 import { age, bridgeFresh, shownStatus } from "../state/store";
 import { headlineNow, linkNow } from "../state/facts";
 import { motion, type Tone } from "../state/headline";
@@ -61,7 +61,10 @@ const motionNow = steady(() => {
     tone: told ? tone : "",
     words: [...(told ? [t(word)] : []), ...(told && stands ? [] : [moves])].join(" · "),
     limit: said.drive.enabled
-      ? t("motion.limit", { speed: v_mps.toFixed(2), what: limitWords(by) })
+      ? t(isGate(by) ? "motion.gated" : "motion.limit", {
+          speed: v_mps.toFixed(2),
+          what: limitWords(by),
+        })
       : null,
   };
 });
