@@ -15,6 +15,7 @@ import httpx
 from sqlalchemy.exc import SQLAlchemyError
 
 from fleet.errors import FleetError, tell
+from pons.command_parser import CommandParser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,7 +34,7 @@ class ServiceProblem(Exception):
 
 def main(words: list[str] | None = None) -> int:
     """Run one command."""
-    given = _parser().parse_args(words)
+    given = grammar().parse_args(words)
     home = Path(os.environ.get("PONS_HOME", ".pons")).absolute()
     try:
         return int(given.act(given, home))
@@ -56,89 +57,89 @@ def main(words: list[str] | None = None) -> int:
         return EXIT_DONE
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="pons fleet", description="Give orders to several robots as to one (docs/fleet.md)."
-    )
-    parser.add_argument("--json", action="store_true", help="print the answer as it came")
+def grammar() -> CommandParser:
+    """Return the words of the command."""
+    examples = ("pons fleet demo", 'pons fleet say "everybody go home"', "pons fleet stop")
+    about = "Give orders to several robots as to one (docs/fleet.md)."
+    parser = CommandParser(prog="pons fleet", description=about, examples=examples)
+    as_json = "print the answer as it came"
+    parser.add_argument("--json", action="store_true", help=as_json)
     acts = parser.add_subparsers(required=True, metavar="COMMAND")
-    up = acts.add_parser("up", help="serve until stopped")
-    up.add_argument("--host", default="127.0.0.1")
+
+    def command(act: Act, about: str, *examples: str) -> CommandParser:
+        """Add a command that is called as its first example is."""
+        name = examples[0].split()[0]
+        made: CommandParser = acts.add_parser(
+            name, help=about, description=f"{about[0].upper()}{about[1:]}.",
+            examples=[f"pons fleet {example}" for example in examples],
+        )  # fmt: skip
+        kept = argparse.SUPPRESS  # what was said before the command
+        made.add_argument("--json", action="store_true", default=kept, help=as_json)
+        made.set_defaults(act=act)
+        return made
+
+    _add_service_commands(command)
+    _add_mission_commands(command)
+    _add_house_commands(command)
+    return parser
+
+
+def _add_service_commands(command: Callable[..., CommandParser]) -> None:
+    """Add up | demo | add | list."""
+    up = command(_serve, "serve page and API until stopped", "up", "up --port 8441")
+    up.add_argument("--host", default="127.0.0.1", help="to listen at; others need --tls-cert")
     up.add_argument("--port", type=int, default=_port())
-    up.add_argument("--tls-cert", type=Path)
+    up.add_argument("--tls-cert", type=Path, help="with the chain")
     up.add_argument("--tls-key", type=Path)
-    up.set_defaults(act=_serve)
-    demo = acts.add_parser("demo", help="try it: three simulated robots and their fleet")
-    demo.set_defaults(act=_become_demo)
-    add = acts.add_parser("add", help="take a robot in: read its card, pin its certificate")
+    command(_become_demo, "try it: start three simulated robots and their fleet", "demo")
+    about = "take a robot in: read its card and pin its certificate"
+    add = command(_add, about, "add https://r3.local --token TOKEN", "add https://r3.local --again")
     add.add_argument("url", help="https://ROBOT[:PORT]")
     add.add_argument("--token", default="", help="of the role dispatcher; - reads it from stdin")
     add.add_argument("--name", help="what it is called here; else its own id")
     add.add_argument("--sha256", help="of its authority, as `pons tls` says there")
     add.add_argument("--again", action="store_true", help="renew its token and certificate")
-    add.set_defaults(act=_add)
-    listed = acts.add_parser("list", help="show robots and missions")
-    listed.set_defaults(act=_list)
-    said = acts.add_parser("say", help='give an order: pons fleet say "everybody go home"')
+    command(_list, "show robots and missions", "list", "list --json")
+
+
+def _add_mission_commands(command: Callable[..., CommandParser]) -> None:
+    """Add say | stop | answer | cancel | resume | pause | to."""
+    about = "give an order to any, the nearest, named, each or all but some"
+    said = command(_say, about, 'say "everybody go home"', 'say "r2: go to the kitchen"')
     said.add_argument("text")
     said.add_argument("--confirm", action="store_true", help="show the plan and wait for a yes")
     said.add_argument("--key", help="the same key and order make the same missions")
-    said.set_defaults(act=_say)
-    stop = acts.add_parser("stop", help="stop robots; without names all")
+    stop = command(_stop, "stop robots; without names all", "stop", "stop r1 r2")
     stop.add_argument("robots", nargs="*")
-    stop.set_defaults(act=_stop)
-    answer = acts.add_parser("answer", help="answer what a mission asks")
-    answer.add_argument("mission")
-    answer.add_argument("text")
-    answer.set_defaults(act=_answer)
-    cancel = acts.add_parser("cancel", help="end a mission")
-    cancel.add_argument("mission")
+    answer = command(_on_mission("answer", "text"), "answer what a mission asks", "answer m-1 yes")
+    cancel = command(_on_mission("cancel", "give_up"), "end a mission", "cancel m-1")
     cancel.add_argument("--give-up", action="store_true", help="end one whose robot is silent")
-    cancel.set_defaults(act=_cancel)
-    _add_house_commands(acts)
-    return parser
+    resume = command(
+        _on_mission("resume"), "go on with a mission that its robot paused", "resume m-1"
+    )
+    about = "keep a mission's place at its robot, standing"
+    pause = command(_on_mission("pause"), about, "pause m-1")
+    to = command(_on_mission("to", "to"), "give an order that waits to another robot", "to m-1 r2")
+    for each in (answer, cancel, resume, pause, to):
+        each.add_argument("mission")
+    answer.add_argument("text")
+    to.add_argument("to", metavar="robot")
 
 
-def _add_house_commands(acts: Any) -> None:
-    """Add house | every | orders | resume | pause | to."""
-
-    def add(name: str, act: Act, about: str, *words: str) -> argparse.ArgumentParser:
-        made: argparse.ArgumentParser = acts.add_parser(name, help=about)
-        made.set_defaults(act=act)
-        for word in words:
-            made.add_argument(word)
-        return made
-
-    def house(given: argparse.Namespace, _: Path) -> int:
-        changes = dict(_read_rule(each) for each in given.rules)
-        told = _ask("PATCH", "/v1/house", changes) if changes else _ask("GET", "/v1/house")
-        for name, value in told.items():
-            print(f"{name:<14} {json.dumps(value, ensure_ascii=False)}")
-        return EXIT_DONE
-
-    def every(given: argparse.Namespace, _: Path) -> int:
-        body = {"text": given.text, "when": given.when, "timezone": given.timezone}
-        _print_order(_ask("POST", "/v1/orders", body))
-        return EXIT_DONE
-
-    def on_mission(name: str) -> Act:
-        def act(given: argparse.Namespace, _: Path) -> int:
-            body = {"to": given.robot} if name == "to" else {}
-            _print_mission(_ask("POST", f"/v1/missions/{given.mission}/{name}", body))
-            return EXIT_DONE
-
-        return act
-
-    about = "show the rules of the house, or set some: quiet=22:00-07:00 rooms=kitchen,bath money="
-    add("house", house, about).add_argument("rules", nargs="*", metavar="NAME=VALUE")
-    about = 'keep an order: every 19:00 "somebody check the door"; or by cron: every "0 19 * * 1-5"'
-    add("every", every, about, "when", "text").add_argument("--timezone", help="else the house's")
-    listed = add("orders", _on_orders, "list the standing orders of the house")
+def _add_house_commands(command: Callable[..., CommandParser]) -> None:
+    """Add house | every | orders."""
+    about = "show the rules of the house, or set some"
+    house = command(_house, about, "house", "house quiet=22:00-07:00 rooms=kitchen,bath money=")
+    house.add_argument("rules", nargs="*", metavar="NAME=VALUE")
+    examples = ('every 19:00 "somebody check the door"', 'every "0 19 * * 1-5" "r1: go home"')
+    every = command(_every, "keep an order for a time of day, or by cron", *examples)
+    every.add_argument("when")
+    every.add_argument("text")
+    every.add_argument("--timezone", help="else the house's")
+    about = "list the standing orders of the house, or change one"
+    listed = command(_on_orders, about, "orders", "orders --skip 1f2e 2026-12-24")
     listed.add_argument("--remove", metavar="ID")
-    listed.add_argument("--skip", nargs=2, metavar=("ID", "DAY"), help="leave 2026-12-24 out")
-    add("resume", on_mission("resume"), "go on with a mission that its robot paused", "mission")
-    add("pause", on_mission("pause"), "keep a mission's place at its robot, standing", "mission")
-    add("to", on_mission("to"), "give an order that waits to another robot", "mission", "robot")
+    listed.add_argument("--skip", nargs=2, metavar=("ID", "DAY"), help="leave one day out")
 
 
 def _serve(given: argparse.Namespace, home: Path) -> int:
@@ -186,57 +187,63 @@ def _add(given: argparse.Namespace, home: Path) -> int:
     return EXIT_DONE
 
 
-def _list(given: argparse.Namespace, _: Path) -> int:
-    robots, missions = _ask("GET", "/v1/robots"), _ask("GET", "/v1/missions")
+def _show(given: argparse.Namespace, told: Any, tell_it: Callable[[Any], None]) -> int:
+    """Print an answer as it came, or as it is told people."""
     if given.json:
-        print(json.dumps({**robots, **missions}, ensure_ascii=False))
-        return EXIT_DONE
-    for robot in robots["robots"]:
-        place = robot["room"] or robot["site"] or "-"
-        print(f"{robot['name']:<16} {robot['state']:<16} {place:<16} {robot['mission'] or 'free'}")
-    for mission in missions["missions"]:
-        _print_mission(mission)
+        print(json.dumps(told, ensure_ascii=False))
+    else:
+        tell_it(told)
     return EXIT_DONE
+
+
+def _list(given: argparse.Namespace, _: Path) -> int:
+    return _show(given, {**_ask("GET", "/v1/robots"), **_ask("GET", "/v1/missions")}, _print_fleet)
 
 
 def _say(given: argparse.Namespace, _: Path) -> int:
     headers = {"idempotency-key": given.key} if given.key else {}
     body = {"text": given.text, "confirm": given.confirm}
     told = _ask("POST", "/v1/missions", body, headers)
-    if given.json:
-        print(json.dumps(told, ensure_ascii=False))
-        return EXIT_DONE
-    for mission in told["missions"]:
-        _print_mission(mission)
-    return _tell_stop(told["stop"]) if told["stop"] else EXIT_DONE
+    _show(given, told, _print_given)
+    return _exit_of(told["stop"]) if told["stop"] else EXIT_DONE
 
 
 def _stop(given: argparse.Namespace, _: Path) -> int:
     told = _ask("POST", "/v1/stop", {"robots": given.robots} if given.robots else {})
-    return _tell_stop(told)
+    _show(given, told, _print_stop)
+    return _exit_of(told)
 
 
-def _answer(given: argparse.Namespace, _: Path) -> int:
-    _print_mission(_ask("POST", f"/v1/missions/{given.mission}/answer", {"text": given.text}))
-    return EXIT_DONE
+def _on_mission(name: str, *fields: str) -> Act:
+    """Return what acts on a mission, with the words that its body takes."""
+
+    def act(given: argparse.Namespace, _: Path) -> int:
+        body = {field: getattr(given, field) for field in fields}
+        path = f"/v1/missions/{given.mission}/{name}"
+        return _show(given, _ask("POST", path, body), _print_mission)
+
+    return act
 
 
-def _cancel(given: argparse.Namespace, _: Path) -> int:
-    body = {"give_up": given.give_up}
-    _print_mission(_ask("POST", f"/v1/missions/{given.mission}/cancel", body))
-    return EXIT_DONE
+def _house(given: argparse.Namespace, _: Path) -> int:
+    changes = dict(_read_rule(each) for each in given.rules)
+    told = _ask("PATCH", "/v1/house", changes) if changes else _ask("GET", "/v1/house")
+    return _show(given, told, _print_rules)
+
+
+def _every(given: argparse.Namespace, _: Path) -> int:
+    body = {"text": given.text, "when": given.when, "timezone": given.timezone}
+    return _show(given, _ask("POST", "/v1/orders", body), _print_order)
 
 
 def _on_orders(given: argparse.Namespace, _: Path) -> int:
     if given.remove:
-        _print_order(_ask("DELETE", f"/v1/orders/{given.remove}", {}))
-    elif given.skip:
+        return _show(given, _ask("DELETE", f"/v1/orders/{given.remove}", {}), _print_order)
+    if given.skip:
         order_id, day = given.skip
-        _print_order(_ask("POST", f"/v1/orders/{order_id}/skip", {"day": day}))
-    else:
-        for order in _ask("GET", "/v1/orders")["orders"]:
-            _print_order(order)
-    return EXIT_DONE
+        told = _ask("POST", f"/v1/orders/{order_id}/skip", {"day": day})
+        return _show(given, told, _print_order)
+    return _show(given, _ask("GET", "/v1/orders"), _print_orders)
 
 
 def _read_rule(given: str) -> tuple[str, Any]:
@@ -284,9 +291,37 @@ def _ask(
     return content
 
 
-def _tell_stop(told: dict[str, Any]) -> int:
+def _exit_of(stop: dict[str, Any]) -> int:
+    return EXIT_DONE if not stop["not_reached"] else EXIT_REFUSED
+
+
+def _print_stop(told: dict[str, Any]) -> None:
     print(_pick(told["message"]))
-    return EXIT_DONE if not told["not_reached"] else EXIT_REFUSED
+
+
+def _print_given(told: dict[str, Any]) -> None:
+    for mission in told["missions"]:
+        _print_mission(mission)
+    if told["stop"]:
+        _print_stop(told["stop"])
+
+
+def _print_fleet(told: dict[str, Any]) -> None:
+    for robot in told["robots"]:
+        place = robot["room"] or robot["site"] or "-"
+        print(f"{robot['name']:<16} {robot['state']:<16} {place:<16} {robot['mission'] or 'free'}")
+    for mission in told["missions"]:
+        _print_mission(mission)
+
+
+def _print_rules(told: dict[str, Any]) -> None:
+    for name, value in told.items():
+        print(f"{name:<14} {json.dumps(value, ensure_ascii=False)}")
+
+
+def _print_orders(told: dict[str, Any]) -> None:
+    for order in told["orders"]:
+        _print_order(order)
 
 
 def _print_mission(mission: dict[str, Any]) -> None:

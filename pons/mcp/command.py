@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import uvicorn
 
+from pons.command_parser import CommandParser
 from pons.mcp.http_door import LOOPBACK, PATH, build_app
 from pons.mcp.planner_door import TOKEN, DoorError, PlannerDoor
 from pons.mcp.server import build_server
@@ -46,8 +47,9 @@ def main(settings: LaunchSettings, words: list[str]) -> int:
 
 
 def _options(words: list[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
+    parser = CommandParser(
         prog="pons mcp",
+        examples=["pons mcp --token-file agent.token", "pons mcp --http --port 8430"],
         description="Serve this robot over MCP (docs/mcp.md). Without options on stdio, with the "
         f"agent's token in {VARIABLE}; `pons people add NAME --role agent` makes one.",
     )
