@@ -35,6 +35,9 @@ CROSSES_M = 0.1
 """A way aside may come so much nearer to the other one."""
 EQUAL_M = 0.4
 """Ways aside that differ by less are equally long: chance decides then."""
+WIDER_M = 0.1
+"""Than this robot, as the tracker draws discs. What is wider still is two that stand side by side:
+no hallway would let both of them pass at once, so that any place in one would seem aside."""
 SMALL_M2 = 0.3
 """For a robot's middle: a smaller part of the floor leads nowhere."""
 
@@ -59,7 +62,8 @@ def choose_pocket(
     Raises:
         RouteFailure: ``no_route``: there is no such place, or the other one is nearer to one.
     """
-    robot, radius_m = (request.start.x_m, request.start.y_m), request.passes_m
+    robot = (request.start.x_m, request.start.y_m)
+    radius_m = min(request.passes_m, mapped.radius_m + WIDER_M)
     other = _middle_of(robot, (request.goal.x_m, request.goal.y_m), radius_m)
     own = _find_pocket(mapped, costmap, robot, other, radius_m, price_from)
     if own is None:

@@ -57,6 +57,13 @@ def test_past_where_it_stands_another_one_comes_to_every_corner(
     assert can_pass(end(aside(robot, other)), other)
 
 
+def test_two_that_are_seen_as_one_are_passed_one_by_one() -> None:
+    """No door lets a disc as wide as two through: before one, any place would seem aside."""
+    two = replace(aside(DOOR_M, BEFORE_M), passes_m=0.68)
+    assert end(two) != DOOR_M
+    assert can_pass(end(two), BEFORE_M)
+
+
 def test_where_nobody_is_in_anybodys_way_it_stays() -> None:
     assert end(aside((8.0, 1.5), (7.2, 1.5))) == (8.0, 1.5)
 
