@@ -144,7 +144,7 @@ class Surveyed:
     local_offset_s: float = 0.0
     """Of people's own clock from UTC, to tell them since when."""
     radius_m: float = 0.0
-    """Of what moved there, where something did."""
+    """Of what moved there, where something did; else of what is as round as a robot."""
 
 
 @dataclass(frozen=True, slots=True)

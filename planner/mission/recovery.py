@@ -68,7 +68,8 @@ MAX_LADDERS = 12
 MAX_WALKER_LADDERS = 3
 """In a row before somebody who walked up and stands: people go on in the end, and who waits for
 them is met again further on. Where people come and go, as at a door in use, the count begins anew
-with each who is seen to walk there; how often the ladder is begun in a step is the bound then."""
+with each who is seen to walk there; how often the ladder is begun in a step is the bound then.
+What is as round and wide as a robot, and was not seen to walk, is given as many."""
 MAX_GIVEN_WAY = 3
 """In one step."""
 WALKER_S = 1.0
@@ -106,7 +107,7 @@ class ShutWay(Frozen):
     moves: bool = False
     """It walked up: it is nothing that shuts a way for long."""
     radius_m: float = 0.0
-    """Of the disc that held it while it walked."""
+    """Of the disc that held it while it walked, or that it is; 0: neither is known."""
     ladder: int = 0
     """The ladder on which it was met last."""
     visits: int = 1
@@ -171,7 +172,7 @@ def rung_after(record: RecoveryRecord) -> int:
 
     Way is given to who walks alone, and looking round finds out nothing about a person.
     """
-    walked = record.newest is not None and record.newest.moves
+    walked = may_leave(record)
     place = record.rung + 1
     while place < len(LADDER) - 1:
         recovery = LADDER[place].recovery
@@ -199,7 +200,7 @@ def aside_s(record: RecoveryRecord) -> float:
 def passes_m(record: RecoveryRecord) -> float:
     """Return the radius of who is to pass, where that is more than a person; 0: it is not."""
     newest = record.newest
-    if newest is None or not newest.moves or not is_wide(newest.radius_m):
+    if newest is None or not may_leave(record) or not is_wide(newest.radius_m):
         return 0.0
     return newest.radius_m
 
@@ -222,8 +223,17 @@ def _by_chance(record: RecoveryRecord) -> tuple[float, float]:
 
 def can_give_way(record: RecoveryRecord) -> bool:
     """Tell whether standing aside may help: somebody walked up, and it was not tried too often."""
-    walked = record.newest is not None and record.newest.moves
-    return walked and record.given_way < MAX_GIVEN_WAY
+    return may_leave(record) and record.given_way < MAX_GIVEN_WAY
+
+
+def may_leave(record: RecoveryRecord) -> bool:
+    """Tell whether what stood in the way last walked up, or may be a robot that waits likewise.
+
+    What is as round and wide as a robot is a thing for one ladder, and then made way for: who
+    comes upon another one that stands in a door has not seen it walk.
+    """
+    newest, waited = record.newest, record.climbed_again > 0
+    return newest is not None and (newest.moves or (waited and is_wide(newest.radius_m)))
 
 
 def begin_ladder(record: RecoveryRecord, robot_xy_m: tuple[float, float]) -> RecoveryRecord:
@@ -252,11 +262,14 @@ def turn_out(record: RecoveryRecord, at_m: tuple[float, float]) -> RecoveryRecor
 
 
 def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:
-    """Return the record at the ladder's foot, where giving up would be too soon; else None."""
+    """Return the record at the ladder's foot, where giving up would be too soon; else None.
+
+    What is waited for shuts no way.
+    """
     walked = record.newest is not None and record.newest.moves
     wide = record.newest is not None and is_wide(record.newest.radius_m)
-    most = MAX_WIDE_LADDERS if wide else MAX_WALKER_LADDERS
-    if not walked or record.climbed_again + 1 >= most:
+    most = MAX_WIDE_LADDERS if walked and wide else MAX_WALKER_LADDERS
+    if not (walked or wide) or record.climbed_again + 1 >= most:
         return None
     spent = record.ladders >= MAX_LADDERS or not record.metres <= MAX_RECOVERY_M
     update = {
@@ -264,6 +277,7 @@ def climb_again(record: RecoveryRecord) -> RecoveryRecord | None:
         "ladders": record.ladders + 1,
         "climbed_again": record.climbed_again + 1,
         "given_way": 0,
+        "shut": tuple(way for way in record.shut if way != record.newest),
     }
     return None if spent else record.model_copy(update=update)
 
@@ -305,9 +319,12 @@ def note_obstruction(
         visits=known.visits + (known.ladder != record.ladders) if known else 1,
     )
     others = tuple(w for w in record.shut if not is_same(w.obstruction, seen))
-    shut = others if way.moves else (*others, way)[-MAX_SHUT:]
     climbed = 0 if moves else record.climbed_again
-    return record.model_copy(update={"shut": shut, "newest": way, "climbed_again": climbed})
+    update = {"shut": others, "newest": way, "climbed_again": climbed}
+    noted = record.model_copy(update=update)
+    if may_leave(noted):
+        return noted
+    return noted.model_copy(update={"shut": (*others, way)[-MAX_SHUT:]})
 
 
 def note_open(record: RecoveryRecord, gone: ShutWay) -> RecoveryRecord:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.activity import Driving
 from planner.mission.events import Surveyed
-from planner.navigation.obstruction import find_narrow, find_obstruction, is_seen_open
+from planner.navigation.obstruction import ROUND_M, find_narrow, find_obstruction, is_seen_open
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,4 +80,6 @@ class Surveyor:
             and hypot(x_m - seen.middle[0], y_m - seen.middle[1]) <= BESIDE_M
         ]
         offset_s = float(time.localtime().tm_gmtoff)
-        return Surveyed(seen, bool(walked), opened, offset_s, max(walked, default=0.0))
+        is_round = seen is not None and seen.is_round
+        round_m = self._robot.base.radius_m + ROUND_M if is_round else 0.0
+        return Surveyed(seen, bool(walked), opened, offset_s, max(walked, default=round_m))

@@ -8,7 +8,7 @@ seen, so an obstruction is a line between the two ends of that side.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import atan2, ceil, cos, hypot, pi, sin
 from typing import TypeAlias
@@ -37,6 +37,10 @@ NARROW_AHEAD_M = 0.6
 """A gap between walls of the map holds the robot that stands in it or right before it."""
 NARROW_SPARE_M = 0.05
 """On each side beyond the gate's margin: what pose, path and lidar err by together."""
+ROUND_M = 0.05
+"""The points of a round thing lie so near to its circle: the lidar's noise, and the pose's."""
+ROUND_SHARE = 1.4
+"""Of the radius, what is seen of the width at least: less is a leg or the edge of something."""
 SEEN_M = 3.5
 """Farther away than this a door's width is a handful of beams."""
 
@@ -49,6 +53,8 @@ class Obstruction:
     end: Point
     gap: bool = False
     """Nothing stands there: the map's own walls leave too little room between the two ends."""
+    is_round: bool = False
+    """Its near side is as round and as wide as the robot that sees it: perhaps another one."""
 
     @property
     def middle(self) -> Point:
@@ -84,7 +90,7 @@ def find_obstruction(
     if not met:
         return None
     seed = min(met, key=lambda point: _away_m(point, robot_xy_m))
-    return _side(_grow(seed, news), robot_xy_m)
+    return _side(_grow(seed, news), robot_xy_m, radius_m)
 
 
 def find_narrow(
@@ -209,12 +215,19 @@ def _grow(seed: Point, points: Sequence[Point]) -> list[Point]:
     return thing
 
 
-def _side(thing: Sequence[Point], robot_xy_m: Point) -> Obstruction:
+def _side(thing: Sequence[Point], robot_xy_m: Point, radius_m: float) -> Obstruction:
     """Return the side that the robot sees: between the outermost bearings."""
     nearest = min(thing, key=lambda point: _away_m(point, robot_xy_m))
     towards = atan2(nearest[1] - robot_xy_m[1], nearest[0] - robot_xy_m[0])
     around = sorted(thing, key=lambda point: _bearing(robot_xy_m, point, towards))
-    return Obstruction(around[0], around[-1])
+    side = Obstruction(around[0], around[-1])
+    (x_m, y_m), (mx_m, my_m) = robot_xy_m, side.middle
+    share = (_away_m(nearest, robot_xy_m) + radius_m) / max(_away_m(side.middle, robot_xy_m), 0.01)
+    centre = x_m + share * (mx_m - x_m), y_m + share * (my_m - y_m)
+    is_round = side.width_m >= ROUND_SHARE * radius_m and all(
+        abs(_away_m(point, centre) - radius_m) <= ROUND_M for point in thing
+    )
+    return replace(side, is_round=is_round)
 
 
 def _away_m(a: Point, b: Point) -> float:

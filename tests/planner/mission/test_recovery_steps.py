@@ -20,6 +20,7 @@ from planner.mission.recovery import (
 )
 from planner.mission.skills import Way
 from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import WIDE_M
 from planner.plan import Code, GoTo, StepPlan
 from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import row
@@ -35,13 +36,19 @@ def told(world: Together, goal: str) -> tuple[str, ...]:
     return world.goal(goal).steps[0].recoveries
 
 
-def shut(world: Together, seen: Obstruction | None = CRATE, *, moves: bool = False) -> str:
+def shut(
+    world: Together,
+    seen: Obstruction | None = CRATE,
+    *,
+    moves: bool = False,
+    radius_m: float = 0.0,
+) -> str:
     """Return a goal whose way is shut, and that no way leads round."""
     world.way = lambda ask: "no_route" if ask.obstacles and ask.way is Way.ROUTE else None
     goal = driving(world)
     world.bridge.blocked = True
     world.run(1.0)
-    world.event(Surveyed(seen, moves, local_offset_s=3600.0))
+    world.event(Surveyed(seen, moves, local_offset_s=3600.0, radius_m=radius_m))
     return goal
 
 
@@ -283,6 +290,30 @@ def test_who_leaves_on_the_second_ladder_lets_the_robot_arrive(world: Together) 
     goal = walked_up(world)
     world.run(35.0)
     assert world.goal(goal).state is RUNNING
+    world.bridge.blocked = False
+    world.way = lambda ask: None
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_what_is_as_round_as_a_robot_is_a_thing_for_one_ladder_and_then_made_way_for(
+    world: Together,
+) -> None:
+    """Two that wait for each other stand: neither was seen to walk up."""
+    goal = shut(world, radius_m=WIDE_M + 0.02)
+    began_s = world.now_s
+    mission = world.run_until(goal, FAILED, limit_s=180.0)
+    tried = list(mission.steps[0].recoveries)
+    first = tried[: tried.index(Recovery.GIVE_WAY.value)]
+    assert first[: len(NAMES) - 1] == NAMES[:-1], "the ladder before a thing, without its end"
+    assert tried.count(Recovery.OTHER_WAY.value) == MAX_WALKER_LADDERS
+    assert world.now_s - began_s <= 120.0
+
+
+def test_as_round_as_a_robot_and_gone_it_shuts_no_way(world: Together) -> None:
+    goal = shut(world, radius_m=WIDE_M + 0.02)
+    world.run(30.0)
+    assert Recovery.GIVE_WAY.value in told(world, goal)
+    assert not world.goal(goal).recovery.shut
     world.bridge.blocked = False
     world.way = lambda ask: None
     world.run_until(goal, SUCCEEDED)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import pi
+from math import cos, pi, sin
 from typing import TYPE_CHECKING, cast
 
 import pytest
@@ -13,6 +13,7 @@ from planner.mission.engine import Leg
 from planner.mission.events import Surveyed
 from planner.mission.surveyor import EVERY_S, FRESH_S, Surveyor
 from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import is_wide
 from tests.planner.mission.driving import driving
 from tests.planner.mission.fakes import straight
 from tests.planner.mission.lockstep import Together
@@ -80,6 +81,18 @@ def test_a_drive_that_is_not_blocked_an_old_scan_and_an_idle_robot_are_told_noth
     world.bridge.blocked = False
     world.run(0.1)
     assert surveyor(FakeLink()).survey(world.book, leg, 10.0) is None
+
+
+def test_what_is_as_round_as_the_robot_is_told_with_its_radius(world: Together) -> None:
+    leg, radius_m = blocked(world), RobotDescription().base.radius_m
+    around = [pi / 2 + pi * i / 40 for i in range(41)]
+    body = tuple((4.0 + radius_m * cos(a), 3.0 + radius_m * sin(a)) for a in around)
+    told = surveyor(FakeLink(points=body)).survey(world.book, leg, 10.0)
+    flat = surveyor(FakeLink()).survey(world.book, leg, 10.0)
+    assert told is not None
+    assert flat is not None
+    assert is_wide(told.radius_m)
+    assert (told.moves, flat.moves, flat.radius_m) == (False, False, 0.0)
 
 
 def test_a_shut_way_through_which_the_lidar_sees_is_told_open(world: Together) -> None:

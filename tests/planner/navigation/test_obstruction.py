@@ -70,6 +70,48 @@ def test_of_two_things_the_nearer_is_meant_and_they_stay_two() -> None:
     assert found.width_m == pytest.approx(0.4, abs=0.03)
 
 
+def disc(radius_m: float, away_m: float, noise_m: float = 0.02) -> list[tuple[float, float]]:
+    """Return the returns of a round thing whose near side is so far ahead, a degree apart."""
+    centre_m, points = away_m + radius_m, []
+    for degree in range(-180, 180):
+        towards = degree * pi / 180
+        half = radius_m**2 - (centre_m * sin(towards)) ** 2
+        if cos(towards) > 0.0 and half >= 0.0:
+            range_m = centre_m * cos(towards) - half**0.5 + noise_m * (-1) ** degree
+            points.append((ROBOT[0] + range_m * cos(towards), ROBOT[1] + range_m * sin(towards)))
+    return points
+
+
+def corner(leg_m: float, x_m: float = 1.4) -> list[tuple[float, float]]:
+    """Return the returns of a box that turns an edge to the robot."""
+    steps = [leg_m * i / 20 for i in range(-20, 21)]
+    return [(x_m + abs(step), 1.0 + step) for step in steps]
+
+
+@pytest.mark.parametrize("away_m", [0.36, 0.5, 0.9])
+def test_what_is_as_round_and_wide_as_the_robot_is_told(away_m: float) -> None:
+    found = find(disc(RADIUS_M, away_m))
+    assert found is not None
+    assert found.is_round
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        pytest.param(front(1.36, 1.0, 0.5), id="a box's face"),
+        pytest.param(corner(0.28), id="a box's edge"),
+        pytest.param(disc(0.15, 0.36), id="a bin"),
+        pytest.param(disc(0.6, 0.36), id="a round table"),
+        pytest.param([*disc(0.05, 0.36), *front(1.5, 1.2, 0.1)], id="two legs"),
+        pytest.param([*disc(RADIUS_M, 0.36), *front(1.5, 1.4, 0.4)], id="beside a box"),
+    ],
+)
+def test_what_has_another_shape_is_a_thing(points: list[tuple[float, float]]) -> None:
+    found = find(points)
+    assert found is not None
+    assert not found.is_round
+
+
 def test_without_a_path_only_what_touches_the_robot_could_be_meant() -> None:
     assert find_obstruction(front(1.6, 1.0, 0.4), [], ROBOT, RADIUS_M, HALL.grid) is None
 
