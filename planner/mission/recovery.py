@@ -80,7 +80,9 @@ MAX_WIDE_LADDERS = 8
 """Before one who is as wide as a robot: it has to turn and to drive off first."""
 WIDE_S = (2.0, 8.0)
 """So much longer, at most, before the robot makes way for it, and while it stands aside: by chance,
-so that two who meet don't do the same at once again and again."""
+so that two who meet don't do the same at once again and again. Who leaves a door needs 8 s, and two
+that come back within less meet in it again: the second grows from the third ladder on."""
+MOST_TIMES = 4
 MAX_RECOVERY_M = 24.0
 """Driven for recoveries in one step."""
 MAX_VISITS = 2
@@ -218,7 +220,8 @@ def _by_chance(record: RecoveryRecord) -> tuple[float, float]:
     if not passes_m(record) > 0.0:
         return 0.0, 0.0
     drawn = crc32(f"{record.began_at} {record.ladders}".encode())
-    return WIDE_S[0] * (drawn & 0xFFFF) / 0xFFFF, WIDE_S[1] * (drawn >> 16) / 0xFFFF
+    times = max(1, min(record.ladders - 1, MOST_TIMES))
+    return WIDE_S[0] * (drawn & 0xFFFF) / 0xFFFF, times * WIDE_S[1] * (drawn >> 16) / 0xFFFF
 
 
 def can_give_way(record: RecoveryRecord) -> bool:

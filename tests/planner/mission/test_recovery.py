@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import hypot
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -16,7 +17,10 @@ from planner.mission.recovery import (
     MAX_VISITS,
     MEMORY_S,
     NEW_LADDER_M,
+    PASSING_S,
+    WIDE_S,
     Recovery,
+    aside_s,
     begin_ladder,
     note_obstruction,
     note_open,
@@ -24,6 +28,7 @@ from planner.mission.recovery import (
     shut_now,
 )
 from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import WIDE_M
 from wire import Pose2
 
 HERE = (1.0, 1.0)
@@ -105,6 +110,22 @@ def test_the_memory_is_bounded(spots_seen: list[tuple[float, float]]) -> None:
         record = note_obstruction(record, across(x_m, y_m), float(at_s))
     assert len(record.shut) <= MAX_SHUT
     assert type(record).model_validate_json(record.model_dump_json()) == record
+
+
+@pytest.mark.parametrize(("ladders", "times"), [(1, 1), (2, 1), (3, 2), (4, 3), (5, 4), (12, 4)])
+def test_who_meets_another_one_again_and_again_stands_aside_longer(
+    ladders: int, times: int
+) -> None:
+    """Two that come back to a door within the 8 s that one needs in it meet there again."""
+    waits = []
+    for at_mm in range(200):
+        record = begin_ladder(FRESH, (0.001 * at_mm, 0.0)).model_copy(update={"ladders": ladders})
+        other = note_obstruction(
+            record, across(2.0, 1.0), 100.0, moves=True, radius_m=WIDE_M + 0.02
+        )
+        waits.append(aside_s(other))
+    assert min(waits) == pytest.approx(PASSING_S, abs=1.0)
+    assert max(waits) == pytest.approx(PASSING_S + times * WIDE_S[1], abs=1.0)
 
 
 def test_a_moved_goal_is_the_goals_own() -> None:
