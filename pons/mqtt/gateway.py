@@ -216,7 +216,10 @@ class HomeGateway:
                     await client.publish(topic, payload, qos=1, retain=True)
                     self._sent[topic] = payload
             while self._refusals:
-                await self._tell_event(client, self._refusals.pop(0))
+                refusal = self._refusals[0]
+                await self._tell_event(client, refusal)
+                if refusal in self._refusals:  # else newer ones took its place meanwhile
+                    self._refusals.remove(refusal)
             while self._view.news:
                 since_s, goal = self._view.news[0]
                 news = home_state.event(goal, self._language)

@@ -52,15 +52,15 @@ class Ears:
         def is_told() -> bool:
             return any(event.get("code") == code for event in self.events)
 
-        await until(is_told, f"{code}: {self.events}")
+        await until(is_told, lambda: f"{code}: {self.events}")
 
 
-async def until(holds: Callable[[], bool], what: str) -> None:
+async def until(holds: Callable[[], bool], what: str | Callable[[], str]) -> None:
     for _ in range(round(LIMIT_S / 0.02)):
         if holds():
             return
         await asyncio.sleep(0.02)
-    raise AssertionError(what)
+    raise AssertionError(what if isinstance(what, str) else what())
 
 
 @dataclass
@@ -94,7 +94,11 @@ class Joined:
                 await ears.until(f"pons/{ROBOT}/availability", b"online")
                 await story(ears)
 
-        asyncio.run(run())
+        try:
+            asyncio.run(run())
+        except AssertionError as failed:
+            failed.add_note(self.log.read_text("utf-8")[-4000:])
+            raise
 
     def stops(self) -> int:
         return self.bridge.asked.count("cmd/stop")
