@@ -86,7 +86,7 @@ async def test_it_is_told_step_by_step_and_is_over_with_its_process() -> None:
         assert newest is not None
         assert [s.outcome for s in newest.driven.steps] == ["running", "left_out", "running"]
         assert LeftOut.PICTURES in newest.left_out
-        assert newest.took_s > 0.0
+        assert 0.0 <= newest.took_s < 60.0  # told to a tenth of a second
         assert '"end":{"x_m":1.0' in newest.model_dump_json(), "as the API tells it"
         assert not drives.is_busy
 
