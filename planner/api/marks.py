@@ -17,7 +17,14 @@ from planner.api.problems import HttpProblem
 from planner.api.schemas import Body, OperatorOrder
 from planner.language.catalogue import CATALOGUE, say
 from planner.site.fence_check import FenceRefusal
-from planner.site.marks import MarkExit, check_marks, find_exit, marks_hash, round_marks
+from planner.site.marks import (
+    MarkExit,
+    check_marks,
+    check_outlines,
+    find_exit,
+    marks_hash,
+    round_marks,
+)
 from planner.site.taught_place_errors import PlaceRefusal
 from wire import VIRTUAL_KEY, MarksFile, MarksRequest, sign_marks
 from wire.bounded_types import Fingerprint
@@ -62,12 +69,14 @@ def routes(services: Services) -> APIRouter:
         """Say where the robot would leave marks that hold it, by the shortest way; nothing moves.
 
         Raises:
-            HttpProblem: ``mark_without_exit``.
+            HttpProblem: ``mark_without_exit``, and those of outlines.
         """
-        known = services.memory
+        known, drawn = services.memory, round_marks(drawing.marks)
         try:
-            marked = known.drawn.site_with(round_marks(drawing.marks))
-            return await find_exit(marked, known.survey, known.radius_m)
+            await asyncio.to_thread(check_outlines, drawn, services.site.fence)
+            return await find_exit(known.drawn.site_with(drawn), known.survey, known.radius_m)
+        except FenceRefusal as refused:
+            raise _problem(refused.code, refused.detail) from None
         except PlaceRefusal as refused:
             raise _problem("mark_without_exit", refused.detail or refused.code) from None
 

@@ -126,8 +126,8 @@ class SiteMarks:
         return self.site
 
 
-def check_marks(marks: MarksFile, fence: Fence, robot_in_map: Pose2 | None) -> None:
-    """Accept marks for a map and for where the robot is now, as far as that is known.
+def check_outlines(marks: MarksFile, fence: Fence) -> None:
+    """Accept marks for a map, wherever the robot is.
 
     Raises:
         FenceRefusal: the first thing that speaks against them.
@@ -141,6 +141,15 @@ def check_marks(marks: MarksFile, fence: Fence, robot_in_map: Pose2 | None) -> N
     length = len(fence_text(marks))
     if not length <= MAX_MARKS_TEXT:
         raise FenceRefusal("marks_too_many", f"{length} characters, at most {MAX_MARKS_TEXT}")
+
+
+def check_marks(marks: MarksFile, fence: Fence, robot_in_map: Pose2 | None) -> None:
+    """Accept marks for a map and for where the robot is now, as far as that is known.
+
+    Raises:
+        FenceRefusal: the first thing that speaks against them.
+    """
+    check_outlines(marks, fence)
     if robot_in_map is None or not fence.allows(robot_in_map.x_m, robot_in_map.y_m):
         return
     if not fence.with_marks(marks).allows(robot_in_map.x_m, robot_in_map.y_m):

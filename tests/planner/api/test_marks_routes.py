@@ -89,6 +89,10 @@ def test_without_a_way_out_of_marks_that_is_said(
     assert (answer.status_code, answer.json()["code"]) == (409, "mark_without_exit")
     assert answer.json()["message"]["zh"]
     assert services.robot.drawn == []
+    for changes, code in (({"map_id": "1" * 16}, "marks_of_another_map"),
+                          ({"keep_outs": [BOX * 3] * 50}, "marks_too_many")):  # fmt: skip
+        asked = {"marks": body(services, **changes)["marks"]}
+        assert client.post("/v1/marks/exit", json=asked).json()["code"] == code
 
 
 @pytest.mark.parametrize("way", ["check", "put"])

@@ -33,15 +33,17 @@ export function t(key: Key, facts: Readonly<Record<string, string>> = {}): strin
   return sentence.replace(/\{(\w+)\}/g, (blank, name: string) => facts[name] ?? blank);
 }
 
+/** Say whether a code from outside has a sentence here, which may be the code itself. */
+export const hasWord = (family: string, code: string): boolean =>
+  Object.hasOwn(en, `${family}.${code}`);
+
 /** Return the sentence of a code from outside, or the code itself where there is none. */
-export function word(family: string, code: string): string {
-  const key = `${family}.${code}`;
-  return Object.hasOwn(en, key) ? t(key as Key) : code;
-}
+export const word = (family: string, code: string): string =>
+  hasWord(family, code) ? t(`${family}.${code}` as Key) : code;
 
 /** Name a door or a person by whom something was done. */
 export const byWhom = (who: string): string =>
-  Object.hasOwn(en, `by_whom.${who}`) ? word("by_whom", who) : t("by_someone", { who });
+  hasWord("by_whom", who) ? word("by_whom", who) : t("by_someone", { who });
 
 export const say = (words: Bilingual): string => words[language.value];
 

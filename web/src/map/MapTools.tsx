@@ -7,10 +7,8 @@ import {
   crosshair,
   deleteMark,
   drawn,
-  exit,
   facing,
   goTo,
-  leaving,
   marking,
   marksShown,
   moving,
@@ -92,10 +90,10 @@ function Drawing() {
         })}
         {flaw && now.corners.length >= 3 ? ` ${t(`marks.flaw_${flaw}`)}` : ""}
         {now.corners.length >= 3 && <small class="fine"> {t("marks.drag")}</small>}
-        {exit.value && ` ${t("marks.holds", { metres: exit.value.metres.toFixed(1) })}`}
-        {leaving.value && ` ${t("marks.leaving")}`}
+        {now.exit && ` ${t("marks.holds", { metres: now.exit.metres.toFixed(1) })}`}
+        {now.leaves && ` ${t("marks.leaving")}`}
       </span>
-      {exit.value && (
+      {now.exit && (
         <button type="button" class="main" id="mark-leave" onClick={() => void sendOut()}>
           {t("marks.leave")}
         </button>

@@ -1,5 +1,5 @@
 /** Say one step, and why a goal or step is as it is, in the person's language. */
-import { causeWords, rowWords, say, t, word } from "../i18n";
+import { causeWords, hasWord, rowWords, say, t, word } from "../i18n";
 import { places } from "../state/store";
 import type { Spot, Step } from "../wire/types";
 import { fixed } from "./format";
@@ -67,8 +67,7 @@ export function spotWords(spot: Spot | null): string {
 
 /** Say what sets a limit: a gate by its name, a row by its sentence. */
 export function limitWords(by: string): string {
-  const known = word("by", by);
-  return known === by ? rowWords(by.toUpperCase()) : known;
+  return hasWord("by", by) ? word("by", by) : rowWords(by.toUpperCase());
 }
 
 const GATES: ReadonlySet<string> = new Set([

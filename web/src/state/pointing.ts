@@ -43,14 +43,14 @@ export type Drawn = {
   readonly corners: Outline;
   /** The outline in force that this one is to take the place of; it stays in force until then. */
   readonly insteadOf?: Outline;
+  /** Where the robot leaves the outline, which holds it. */
+  readonly exit?: MarkExit | null;
+  /** The robot was sent out; the outline is saved once it stands outside. */
+  readonly leaves?: boolean;
 };
 /** The outline that is being drawn. */
 export const drawn = signal<Drawn | null>(null);
 export const slowMps = signal(0.2);
-/** Where the robot leaves the outline that is drawn round it; null: nothing holds it. */
-export const exit = signal<MarkExit | null>(null);
-/** The robot was sent out of the outline, which is saved once it stands outside. */
-export const leaving = signal(false);
 /** A place that is being moved, and where to. */
 export type Moving = { readonly place: Place; readonly to: Point };
 export const moving = signal<Moving | null>(null);
@@ -88,15 +88,11 @@ export function startPointing(): () => void {
       }
     }),
     effect(() => {
-      if (drawn.value === null) exit.value = null;
-      if (drawn.value === null || exit.value) leaving.value = false;
-    }),
-    effect(() => {
       const now = status.value;
       const pose = now?.base_in_map;
-      if (!leaving.value || !drawn.value || !pose || now.mode === "ACTIVE") return;
+      if (!drawn.value?.leaves || !pose || now.mode === "ACTIVE") return;
       if (contains(drawn.value.corners, { x: pose.x_m, y: pose.y_m })) return;
-      leaving.value = false;
+      drawn.value = { ...drawn.value, leaves: false };
       void saveOutline();
     }),
     effect(() => {
@@ -199,16 +195,16 @@ export async function saveOutline(): Promise<void> {
 
 /** Send the robot out of the outline that holds it; the outline counts once it stands outside. */
 export async function sendOut(): Promise<void> {
-  const to = exit.value;
-  if (!to) return;
-  exit.value = null;
-  leaving.value = await goTo([{ x_m: to.x_m, y_m: to.y_m }], isBusy.value);
+  const to = drawn.value?.exit;
+  if (!to || !(await goTo([{ x_m: to.x_m, y_m: to.y_m }], isBusy.value)) || !drawn.value) return;
+  drawn.value = { ...drawn.value, exit: null, leaves: true };
 }
 
 /** Find the way out for a robot that marks hold and return null; throws what else refused them. */
 async function seeExit(refused: unknown, marks: Marks): Promise<null> {
   if (!(refused instanceof ApiError) || refused.code !== "mark_holds_robot") throw refused;
-  exit.value = await fetchExit(marks);
+  const exit = await fetchExit(marks);
+  if (drawn.value) drawn.value = { ...drawn.value, exit, leaves: false };
   return null;
 }
 
