@@ -74,6 +74,8 @@ class LegDoubts:
     """When somebody was last seen to come towards the robot."""
     made_way_s: float = float("-inf")
     """When it was last decided who makes way."""
+    closed_in_s: float = float("-inf")
+    """When another robot was last seen near, and to drive towards this one."""
     bends: int = 0
     """Ways taken because the one before was doubted."""
 

@@ -15,7 +15,7 @@ from planner.mission.effects import AskRoute, Effect, Journal, MotionRequest
 from planner.mission.events import Event, Journalled, Routed, Seen
 from planner.mission.nav2_pilot import Nav2Pilot, pilot_of
 from planner.mission.reducer import advance, motion_request
-from planner.mission.route_doubts import standing_doubt
+from planner.mission.route_doubts import meeting_share, standing_doubt
 from planner.mission.skills import Way
 from planner.mission.state import MissionState
 from planner.navigation import FloorReport, Horizon, LegPath, RoutePoint, cut
@@ -62,7 +62,7 @@ class Following:
     path: LegPath
     progress_m: float = 0.0
     slowed: tuple[float, LegPath] | None = None
-    """The share of the speed that a person has left to the goal, and the path at that speed."""
+    """The share of the planned speeds that was driven last, and the path at those speeds."""
 
 
 class Engine:
@@ -142,8 +142,10 @@ class Engine:
         return Output(pilot.drive(status, motion_request(self.book), share, now_s))
 
     def _speed_share(self) -> float:
+        """Return the share of the planned speeds that is driven: less near another robot."""
         mission = self.book.missions.get(self.book.running or "")
-        return mission.speed_share if mission is not None else 1.0
+        share = mission.speed_share if mission is not None else 1.0
+        return min(share, meeting_share(self.book))
 
     def event(self, event: Event, now_s: float) -> Output:
         """Take any other event; if it changes what is wanted, say so to the bridge at once."""
@@ -261,9 +263,8 @@ class Engine:
         return horizon
 
     def _slow(self, following: Following) -> LegPath:
-        """Return the path at the speed that a person has left to its goal."""
-        mission = self.book.missions.get(following.mission)
-        share = mission.speed_share if mission is not None else 1.0
+        """Return the path at the share of its speeds that is driven now."""
+        share = self._speed_share()
         if share == 1.0:
             return following.path
         if following.slowed is None or following.slowed[0] != share:

@@ -123,6 +123,14 @@ class Oncoming:
 
 
 @dataclass(frozen=True, slots=True)
+class ClosingIn:
+    """One as wide as a robot is near, and drives towards the robot that drives this leg."""
+
+    id: str
+    leg: int
+
+
+@dataclass(frozen=True, slots=True)
 class Seen:
     """The bridge spoke. ``off_path``: the robot is too far from the path that is streamed."""
 
@@ -289,6 +297,7 @@ Event = (
     | Routed
     | RouteDoubted
     | Oncoming
+    | ClosingIn
     | Seen
     | Surveyed
     | Sighted

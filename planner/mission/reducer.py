@@ -13,6 +13,7 @@ from planner.mission.effects import STAND, AskBrain, Effect, MotionRequest
 from planner.mission.events import (
     Cancel,
     ChangeSpeed,
+    ClosingIn,
     Command,
     Confirm,
     Event,
@@ -55,7 +56,7 @@ from planner.mission.places_changed import on_known
 from planner.mission.plan_roles import change_speed
 from planner.mission.queue import cancel, reorder
 from planner.mission.recovery_steps import on_survey
-from planner.mission.route_doubts import on_doubted, on_oncoming
+from planner.mission.route_doubts import on_closing_in, on_doubted, on_oncoming
 from planner.mission.skills.object_matching import names_any
 from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
@@ -136,6 +137,7 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
     | Routed
     | RouteDoubted
     | Oncoming
+    | ClosingIn
     | Seen
     | Surveyed
     | Sighted
@@ -170,6 +172,8 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
         case Oncoming():
             make_way(turn, event)
             on_oncoming(turn, event)
+        case ClosingIn():
+            on_closing_in(turn, event)
         case Surveyed():
             on_survey(turn, event)
         case Planned():

@@ -17,7 +17,7 @@ from planner.mission.legs import ask_route, new_leg
 from planner.mission.skills import Way
 
 if TYPE_CHECKING:
-    from planner.mission.events import Oncoming, Routed, RouteDoubted
+    from planner.mission.events import ClosingIn, Oncoming, Routed, RouteDoubted
     from planner.mission.state import Mission, MissionState
     from planner.mission.transaction import Transaction
 
@@ -49,6 +49,8 @@ MEETING_S = 2.0
 MET_SHARE, PASSED_M = 0.5, 1.0
 """Of the way to somebody who comes, what the robot drives until they meet, at most: it slows down
 on the right. So far beyond they have passed."""
+MEETING_SHARE = 0.5
+"""Of the planned speeds, near another robot that closes in."""
 MAX_BENDS = 12
 """In one leg. After that the ladder of recovery alone finds other ways."""
 
@@ -93,6 +95,24 @@ def on_oncoming(turn: Transaction, event: Oncoming) -> None:
     turn.change(doubts=replace(doubts, newest=newest, right_searched_s=now_s))
     reach_m = MET_SHARE * event.far_m + PASSED_M
     ask_route(turn, RoutePurpose.KEEP_RIGHT, keep_right_m=reach_m)
+
+
+def on_closing_in(turn: Transaction, event: ClosingIn) -> None:
+    """Note that another robot closes in, whatever the leg is driven for."""
+    mission, leg = turn.running, turn.driving
+    if mission is not None and leg is not None and (mission.id, leg.leg) == (event.id, event.leg):
+        turn.change(doubts=replace(leg.doubts, closed_in_s=turn.now_s))
+
+
+def meeting_share(book: MissionState) -> float:
+    """Return the share of the planned speeds at which another robot that closes in is met.
+
+    The bridge keeps the room to stop before what stands. Of two that drive towards each other each
+    uses up the room of the other one, which at half the speed is a quarter.
+    """
+    leg = book.activity
+    meets = isinstance(leg, Driving) and book.status_s - leg.doubts.closed_in_s <= LASTS_S
+    return MEETING_SHARE if meets else 1.0
 
 
 def take_doubted(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:

@@ -12,9 +12,9 @@ from itertools import pairwise
 from math import dist
 from typing import TYPE_CHECKING, Protocol
 
-from planner.mission.events import Oncoming, RouteDoubted
+from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
 from planner.navigation import RouteFailure, ScanObservation
-from planner.navigation.oncoming import find_oncoming
+from planner.navigation.oncoming import find_oncoming, is_closing_in
 from planner.perception.pose_buffer import Poses
 from wire import Pose2
 
@@ -109,7 +109,7 @@ class ScanSender:
         return newest is not None and (scan.boot_id, scan.seq) == (newest.boot_id, newest.seq)
 
     async def show(
-        self, seen: ScanObservation, tell: Callable[[RouteDoubted | Oncoming], None]
+        self, seen: ScanObservation, tell: Callable[[RouteDoubted | Oncoming | ClosingIn], None]
     ) -> None:
         """Bring a scan to the search and keep its report; a failure is told by its next route.
 
@@ -135,6 +135,9 @@ class ScanSender:
             who = met.who
             seen_m, at = (who.x_m, who.y_m), (met.at_m, met.far_m)
             tell(Oncoming(way.mission, way.leg, *at, seen_m, who.radius_m))
+        here = (seen.base_in_map.x_m, seen.base_in_map.y_m)
+        if is_closing_in(here, self.report.movers):
+            tell(ClosingIn(way.mission, way.leg))
 
 
 def _point_along(way: tuple[Point, ...], far_m: float) -> Point:

@@ -1,4 +1,4 @@
-"""Find who comes towards the robot on its own way. Pure: points of the way and discs that move."""
+"""Find who comes towards the robot. Pure: points of its way and discs that move."""
 
 from __future__ import annotations
 
@@ -24,6 +24,10 @@ TOWARDS_MPS, WIDE_TOWARDS_MPS = 0.25, 0.1
 MOSTLY = 0.7
 """Of a mover's speed, the share that leads towards the robot: the rest is crossing."""
 
+NEAR_M, CLOSES_MPS = 1.3, 0.1
+"""From middle to middle, and the part of its speed that leads towards the robot: another robot that
+is nearer, and comes nearer faster, is closing in."""
+
 
 @dataclass(frozen=True, slots=True)
 class Encounter:
@@ -45,6 +49,22 @@ def find_oncoming(way: Sequence[Point], movers: Sequence[Mover]) -> Encounter | 
     """
     met = [found for mover in movers if (found := _meeting(way, mover)) is not None]
     return min(met, key=lambda one: one.far_m) if met else None
+
+
+def is_closing_in(at: Point, movers: Sequence[Mover]) -> bool:
+    """Tell whether one as wide as a robot, who is near, drives towards a point from anywhere.
+
+    Args:
+        at: where the robot is, in ``map`` [m].
+        movers: what moves, in ``map``.
+    """
+    for mover in movers:
+        x_m, y_m = at[0] - mover.x_m, at[1] - mover.y_m
+        away_m = hypot(x_m, y_m)
+        towards = mover.vx_mps * x_m + mover.vy_mps * y_m >= CLOSES_MPS * away_m
+        if is_wide(mover.radius_m) and away_m <= NEAR_M and towards:
+            return True
+    return False
 
 
 def _meeting(way: Sequence[Point], mover: Mover) -> Encounter | None:

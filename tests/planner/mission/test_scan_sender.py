@@ -11,9 +11,9 @@ import pytest
 
 from planner.bridge_client import Aged
 from planner.mission.engine import WayAhead
-from planner.mission.events import Oncoming, RouteDoubted
+from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
 from planner.mission.scan_sender import FRESH_S, PERIOD_S, ScanSender
-from planner.navigation import ObstacleReport, RouteFailure, ScanObservation
+from planner.navigation import Mover, ObstacleReport, RouteFailure, ScanObservation
 from tests.planner.perception.test_pose_buffer import moved, placed
 from wire import RobotDescription, Scan
 
@@ -54,6 +54,7 @@ class Observer:
 
     blocked_m: float | None = None
     broken: bool = False
+    movers: tuple[Mover, ...] = ()
     shown: list[ScanObservation] = field(default_factory=list)
 
     async def observe(self, seen: ScanObservation) -> ObstacleReport:
@@ -61,7 +62,7 @@ class Observer:
         if self.broken:
             raise RouteFailure("route_worker_died")
         self.shown.append(seen)
-        return ObstacleReport(len(self.shown), self.blocked_m, (), b"", b"")
+        return ObstacleReport(len(self.shown), self.blocked_m, self.movers, b"", b"")
 
 
 @dataclass
@@ -72,7 +73,7 @@ class Showing:
     way: WayAhead | None = WAY
     now_s: float = 50.0
     link: FakeLink = field(default_factory=FakeLink)
-    doubts: list[RouteDoubted | Oncoming] = field(default_factory=list)
+    doubts: list[RouteDoubted | Oncoming | ClosingIn] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.sender = ScanSender(
@@ -114,7 +115,9 @@ def test_where_the_way_is_closed_is_told_with_the_leg_it_was_told_of() -> None:
     showing.link.turn(1, 1.0)
     assert showing.show()
     assert [(one.id, one.leg) for one in showing.doubts] == [("g1", 3)]
-    assert showing.doubts[0].at_m == pytest.approx((1.0, 0.0))
+    (doubt,) = showing.doubts
+    assert isinstance(doubt, RouteDoubted)
+    assert doubt.at_m == pytest.approx((1.0, 0.0))
 
 
 @pytest.mark.parametrize("blocked_m", [0.0, 2.0, 9.0])
@@ -122,7 +125,19 @@ def test_the_spot_lies_on_the_way_wherever_it_is_closed(blocked_m: float) -> Non
     showing = Showing(Observer(blocked_m=blocked_m))
     showing.link.turn(1, 1.0)
     showing.show()
-    assert showing.doubts[0].at_m == pytest.approx((min(blocked_m, 2.0), 0.0))
+    (doubt,) = showing.doubts
+    assert isinstance(doubt, RouteDoubted)
+    assert doubt.at_m == pytest.approx((min(blocked_m, 2.0), 0.0))
+
+
+def test_another_robot_that_closes_in_is_told_whatever_its_way() -> None:
+    crosses = Mover(1, moved(1.0, 0.0).base_in_odom.x_m + 10.0, 1.0, 0.0, -0.4, 0.35)
+    showing = Showing(Observer(movers=(crosses,)))
+    for seq in (1, 2):
+        showing.link.turn(seq, float(seq))
+        assert showing.show()
+        assert showing.doubts == [ClosingIn("g1", 3)], "and is none where it stands"
+        showing.way, showing.now_s = None, showing.now_s + PERIOD_S
 
 
 def test_a_robot_that_stands_has_no_way_to_doubt() -> None:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from math import cos, sin
+
 import pytest
 
 from planner.navigation import Mover
-from planner.navigation.oncoming import find_oncoming
+from planner.navigation.oncoming import CLOSES_MPS, NEAR_M, find_oncoming, is_closing_in
+from planner.navigation.route import WIDE_M
 
 WAY = tuple((0.1 * i, 0.0) for i in range(51))
 
@@ -47,3 +50,31 @@ def test_nobody_else_is_met(other: Mover) -> None:
 @pytest.mark.parametrize("way", [(), ((0.0, 0.0),), ((0.0, 0.0), (0.0, 0.0))])
 def test_on_a_way_without_length_nobody_comes(way: tuple[tuple[float, float], ...]) -> None:
     assert find_oncoming(way, [mover(1.0, 0.0, -0.8)]) is None
+
+
+def robot(x_m: float, y_m: float, vx_mps: float, vy_mps: float) -> Mover:
+    return Mover(1, x_m, y_m, vx_mps, vy_mps, WIDE_M + 0.02)
+
+
+@pytest.mark.parametrize("from_rad", [0.0, 1.0, 2.5, -1.7])
+def test_another_robot_closes_in_from_wherever_it_comes(from_rad: float) -> None:
+    x_m, y_m = cos(from_rad), sin(from_rad)
+    for share in (1.0, -1.0):
+        vx_mps, vy_mps = -0.4 * x_m * share, -0.4 * y_m * share
+        other = robot(2.0 + x_m, y_m - 3.0, vx_mps, vy_mps)
+        assert is_closing_in((2.0, -3.0), [other]) is (share > 0.0)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        robot(NEAR_M + 0.01, 0.0, -0.4, 0.0),
+        robot(1.0, 0.0, -CLOSES_MPS / 2, 0.4),  # passes by
+        robot(1.0, 0.0, 0.0, 0.0),
+        robot(float("nan"), 0.0, -0.4, 0.0),
+        robot(1.0, 0.0, float("nan"), 0.0),
+        Mover(1, 1.0, 0.0, -0.4, 0.0, WIDE_M),  # a person
+    ],
+)
+def test_nobody_else_closes_in(other: Mover) -> None:
+    assert not is_closing_in((0.0, 0.0), [other])
