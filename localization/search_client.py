@@ -24,6 +24,8 @@ SEARCH_S = 18.0
 """A search takes 0.1 s; the rest is for a process that is still starting, or starved of its
 processor: killed for its slowness it would never answer. What it found is carried on by odometry
 and judged by another scan, so that a late answer harms nobody."""
+RESTS_AFTER_S = 60.0
+"""A robot that knows its place searches for it about never, and the process holds 33 MB."""
 
 
 class SearchFailure(WorkerFailure):
@@ -51,7 +53,9 @@ class SearchClient:
     def __init__(self, site: Path, lidar: LidarConfig) -> None:
         self._lidar_m = [lidar.x_m, lidar.y_m]
         arguments = (str(site.absolute()),)
-        self._thread = WorkerThread("search", "localization.search_process", arguments, CODES)
+        self._thread = WorkerThread(
+            "search", "localization.search_process", arguments, CODES, RESTS_AFTER_S
+        )
         self._answers: deque[tuple[int, tuple[Candidate, ...]]] = deque(maxlen=8)
         self.trouble: LocalizerTrouble | None = None
         """Why the newest request was not answered; None where it was."""

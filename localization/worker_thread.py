@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from processes.worker import SupervisedWorker
@@ -28,8 +29,9 @@ class WorkerThread:
     """Run one worker's supervision, and what asks it, in a thread."""
 
     def __init__(
-        self, name: str, module: str, arguments: tuple[str, ...], codes: FailureCodes
-    ) -> None:
+        self, name: str, module: str, arguments: tuple[str, ...], codes: FailureCodes,
+        rests_after_s: float = inf,
+    ) -> None:  # fmt: skip
         """Describe both; :meth:`start` starts them.
 
         Args:
@@ -37,12 +39,14 @@ class WorkerThread:
             module: the worker's.
             arguments: of its command line.
             codes: of its failures.
+            rests_after_s: of no request, until the process is ended; the next one starts it.
         """
         self.worker = SupervisedWorker(
             *(module, arguments, codes),
             one_at_a_time=True,
             first_word_s=READY_S,
             longest_pause_s=LONGEST_PAUSE_S,
+            rests_after_s=rests_after_s,
         )
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._serve, name=name, daemon=True)

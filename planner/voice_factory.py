@@ -70,8 +70,10 @@ class VoiceParts:
         )
 
     def start(self) -> None:
-        """Load the recogniser beside everything else, and begin to speak."""
-        self._grammar.warm()
+        """Load a model that was set beside everything else, and begin to speak.
+
+        The grammar's process begins where somebody may speak soon: a page was opened.
+        """
         if self._model is not None:
             self._model.warm()
         self.speaker.start()

@@ -14,7 +14,8 @@ import logging
 import os
 import signal
 from asyncio.subprocess import PIPE, Process
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from math import inf
 from typing import Any, TypeVar
 
 from processes.backoff import Backoff
@@ -40,6 +41,26 @@ ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """These libraries would start a pool of threads, and the bridge needs the cores."""
 
 
+class Rest:
+    """End what nobody has used for a while."""
+
+    def __init__(self, after_s: float, end: Callable[[], None]) -> None:
+        """Take how long to wait [s], from each :meth:`put_off` on, and what to call then."""
+        self._after_s, self._end = after_s, end
+        self._timer: asyncio.TimerHandle | None = None
+
+    def put_off(self) -> None:
+        """Begin to wait anew. Where an event loop runs."""
+        self.cancel()
+        if self._after_s < inf:
+            self._timer = asyncio.get_running_loop().call_later(self._after_s, self._end)
+
+    def cancel(self) -> None:
+        """Wait no more."""
+        if self._timer is not None:
+            self._timer.cancel()
+
+
 class SupervisedWorker:
     """Run a module of ours as a worker process, again whenever it ends."""
 
@@ -52,6 +73,7 @@ class SupervisedWorker:
         one_at_a_time: bool,
         first_word_s: float,
         longest_pause_s: float,
+        rests_after_s: float = inf,
     ) -> None:
         """Take the worker's command line; nothing is started.
 
@@ -62,6 +84,7 @@ class SupervisedWorker:
             one_at_a_time: a request waits for its turn, and its time runs meanwhile.
             first_word_s: a process that has not said ready by then is started again.
             longest_pause_s: where the doubling of pauses before new starts ends.
+            rests_after_s: of no request, until the process is ended; the next one starts it.
         """
         self._command, self._codes = (module, *arguments), codes
         self._process: Process | None = None
@@ -75,6 +98,8 @@ class SupervisedWorker:
         self._number = 0
         self._backoff = Backoff(FIRST_PAUSE_S, longest_pause_s)
         self._first_word_s = first_word_s
+        self._wanted = asyncio.Event()
+        self._rest, self._users = Rest(rests_after_s, self._end_unused), 0
 
     @property
     def pid(self) -> int | None:
@@ -91,8 +116,9 @@ class SupervisedWorker:
         if self._supervision is None:
             self._supervision = asyncio.create_task(self._supervise(), name=self._command[0])
         try:
-            async with asyncio.timeout(timeout_s):
-                await self._wait_ready()
+            with self._in_use():
+                async with asyncio.timeout(timeout_s):
+                    await self._wait_ready()
         except TimeoutError:
             raise self._down_failure(f"not ready after {timeout_s:g} s") from None
         except BaseException:
@@ -119,11 +145,12 @@ class SupervisedWorker:
         frame = pack({**head, "number": number}, *bodies)
         answer: asyncio.Future[Frame] = asyncio.get_running_loop().create_future()
         try:
-            async with asyncio.timeout(timeout_s), self._turn:
-                await self._wait_ready()
-                self._waiting[number] = answer
-                await self._send(frame)
-                told = await answer
+            with self._in_use():
+                async with asyncio.timeout(timeout_s), self._turn:
+                    await self._wait_ready()
+                    self._waiting[number] = answer
+                    await self._send(frame)
+                    told = await answer
         except TimeoutError:
             if number not in self._waiting:
                 raise self._down_failure(f"it is {self._busy}being restarted") from None
@@ -135,6 +162,7 @@ class SupervisedWorker:
 
     async def close(self) -> None:
         """End the worker and wait until it is gone. Safe to call twice."""
+        self._rest.cancel()
         supervision, self._supervision = self._supervision, None
         if supervision is not None:
             supervision.cancel()
@@ -185,6 +213,22 @@ class SupervisedWorker:
             self._kill()  # it is out of step, or of another version
             raise self._death_failure() from None
 
+    @contextlib.contextmanager
+    def _in_use(self) -> Iterator[None]:
+        self._users += 1
+        self._rest.cancel()
+        self._wanted.set()
+        try:
+            yield
+        finally:
+            self._users -= 1
+            if not self._users:
+                self._rest.put_off()
+
+    def _end_unused(self) -> None:
+        self._wanted.clear()
+        self._kill()
+
     def _kill(self) -> None:
         self._ready.clear()  # from now on the next request waits for the process that follows
         if self._process is not None:
@@ -193,6 +237,7 @@ class SupervisedWorker:
     async def _supervise(self) -> None:
         """Keep one process running until cancelled, or until it refuses its arguments."""
         while self._refused is None:
+            await self._wanted.wait()
             try:
                 self._process = await spawn(worker_command(*self._command))
                 await self._listen(self._process)
@@ -201,13 +246,14 @@ class SupervisedWorker:
                 self._refused = failure
                 self._ready.set()
             except STREAM_ERRORS as error:
-                log.warning(
-                    "%s is started again in %g s; its stream ended: %r",
-                    *(self._command[0], self._backoff.next_s, error),
-                )
+                if self._wanted.is_set():
+                    log.warning(
+                        "%s is started again in %g s; its stream ended: %r",
+                        *(self._command[0], self._backoff.next_s, error),
+                    )
             finally:
                 await self._end_process()
-            if self._refused is None:
+            if self._refused is None and self._wanted.is_set():
                 await asyncio.sleep(self._backoff.pause_after())
 
     async def _listen(self, process: Process) -> None:

@@ -113,6 +113,7 @@ def routes(services: Services) -> APIRouter:
     @router.get("/voice", operation_id="get_voice")
     async def abilities() -> VoiceAbilities:
         """Show which languages are heard and by what, and whether the robot itself speaks."""
+        services.ears.warm()  # who asks this has a microphone
         return services.voice
 
     @router.post("/voice/hush", operation_id="hush")

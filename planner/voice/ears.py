@@ -65,6 +65,11 @@ class Ears:
                 task.cancel()
             await asyncio.gather(near, far, return_exceptions=True)
 
+    def warm(self) -> None:
+        """Have both get ready."""
+        self._grammar.warm()
+        self._other.warm()
+
     def listen(self) -> tuple[StopListener, ...]:
         """Return what hears a recording while it is spoken, of both."""
         return self._grammar.listen() + self._other.listen()

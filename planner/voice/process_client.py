@@ -1,7 +1,8 @@
 """Run the recogniser in another process and keep one at hand. Knows pipes; not words.
 
-Started ahead of the first recording and again after a death, by whoever asks next. Whatever becomes
-of it, a caller gets an answer or a typed failure in bounded time.
+Started where somebody may speak soon, and again after a death, by whoever asks next; ended where
+nobody speaks for long. Whatever becomes of it, a caller gets an answer or a typed failure in
+bounded time.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import itertools
 import logging
 from asyncio.subprocess import Process
 from collections.abc import Mapping, Sequence
+from math import inf
 from typing import Any
 
 from planner.language.stop import calls_stop, is_stop
@@ -19,7 +21,7 @@ from planner.plan import Language
 from planner.voice.recogniser import Recognition, StopListener, VoiceFailure
 from planner.voice.wav import Sound
 from processes.parent_death import worker_command
-from processes.worker import STREAM_ERRORS, exchange, reap, spawn
+from processes.worker import STREAM_ERRORS, Rest, exchange, reap, spawn
 from processes.worker_protocol import pack
 
 log = logging.getLogger(__name__)
@@ -27,6 +29,8 @@ log = logging.getLogger(__name__)
 HEAR_S = 15.0
 """For 15 s of speech on a board ten times slower than a desktop."""
 READY_S = 30.0
+RESTS_AFTER_S = 600.0
+"""Its 50 MB are a tenth of what all processes of a robot take. It is back within a second."""
 MAX_WAITING = 3
 """Recordings at a time; what a fourth says is old when its turn comes."""
 
@@ -39,6 +43,7 @@ class VoiceWorker:
         names: Sequence[str],
         command: Sequence[str] | None = None,
         model: Mapping[str, Any] | None = None,
+        rests_after_s: float = RESTS_AFTER_S,
     ) -> None:
         """Take what the process is told first; nothing is started.
 
@@ -46,6 +51,8 @@ class VoiceWorker:
             names: that the built-in grammar hears.
             command: another program than ours.
             model: ``sherpa``, a model's files, and ``threads``; None for the grammar.
+            rests_after_s: of silence, until the process is ended. A model's stays: it takes long
+                to load.
         """
         self._heard: dict[str, tuple[str, ...]] = {"names": tuple(names), "sentences": ()}
         self._model = dict(model or {})
@@ -58,6 +65,7 @@ class VoiceWorker:
         self._number = 0
         self._streams = itertools.count(1)
         self._warming: asyncio.Task[None] | None = None
+        self._rest = Rest(inf if self._model else rests_after_s, self._end_unused)
         self._at_work: set[asyncio.Task[Recognition]] = set()
         self.left_out: tuple[str, ...] = ()
         self.failure: VoiceFailure | None = None
@@ -69,11 +77,19 @@ class VoiceWorker:
         return None if self._process is None else self._process.pid
 
     def warm(self) -> None:
-        """Start the process beside everything else, so that the first order need not wait."""
-        self._warming = asyncio.create_task(self._warm(), name="voice worker")
+        """Have the process started, where none runs: somebody may speak soon."""
+        work = self._warm_after(self._warming)
+        self._warming = asyncio.create_task(work, name="voice worker")
+
+    def _end_unused(self) -> None:
+        self._warming = asyncio.create_task(self._bury_in_turn(), name="voice worker")
+
+    async def _bury_in_turn(self) -> None:
+        async with self._turn:
+            await self._bury()
 
     def know(self, names: Sequence[str], sentences: Sequence[str] = ()) -> None:
-        """Hear other names and orders from now on, by a process that is started beside all else.
+        """Hear other names and orders from now on; a process that runs is followed by another.
 
         Args:
             names: of places.
@@ -83,8 +99,8 @@ class VoiceWorker:
         if heard == self._heard:
             return
         self._heard = heard
-        work = self._warm_after(self._warming)
-        self._warming = asyncio.create_task(work, name="voice worker")
+        if self._process is not None or not (self._warming is None or self._warming.done()):
+            self.warm()
 
     async def _warm_after(self, before: asyncio.Task[None] | None) -> None:
         if before is not None:
@@ -107,6 +123,7 @@ class VoiceWorker:
 
     def listen(self) -> tuple[StopListener, ...]:
         """Return what hears one recording in the same process while it is spoken."""
+        self.warm()
         return (WorkerListener(self, next(self._streams)),)
 
     async def hear_part(self, stream: int, sound: Sound) -> Recognition:
@@ -136,6 +153,7 @@ class VoiceWorker:
 
     async def close(self) -> None:
         """End the process and wait until it is gone. Safe to call twice."""
+        self._rest.cancel()
         if self._warming is not None:
             self._warming.cancel()
             with contextlib.suppress(asyncio.CancelledError):
@@ -193,6 +211,7 @@ class VoiceWorker:
         return process
 
     async def _start(self) -> Process:
+        self._rest.put_off()
         alive = self._process is not None and self._process.returncode is None
         if self._process is not None and alive and self._told == self._heard:
             return self._process

@@ -74,6 +74,10 @@ class Recogniser(Protocol):
         """
         ...
 
+    def warm(self) -> None:
+        """Get ready beside everything else: somebody may speak soon."""
+        ...
+
     def listen(self) -> tuple[StopListener, ...]:
         """Return what hears one recording while it is spoken; none where only whole ones are."""
         ...

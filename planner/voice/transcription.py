@@ -99,6 +99,9 @@ class TranscriptionServer:
         except CallFailure as failure:
             raise VoiceFailure(f"transcription_{failure.why}", str(failure)) from None
 
+    def warm(self) -> None:
+        """Do nothing: a server is there or not."""
+
     def listen(self) -> tuple[StopListener, ...]:
         """Return nothing: such a server takes whole recordings."""
         return ()

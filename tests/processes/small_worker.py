@@ -7,6 +7,7 @@ import contextlib
 import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from functools import wraps
+from math import inf
 from typing import ParamSpec
 
 import pytest
@@ -22,12 +23,15 @@ LIMIT_S = 30.0
 class Tiny(SupervisedWorker):
     """Keep a small process that behaves as it is told."""
 
-    def __init__(self, *, one_at_a_time: bool = False, **told: str) -> None:
+    def __init__(
+        self, *, one_at_a_time: bool = False, rests_after_s: float = inf, **told: str
+    ) -> None:
         super().__init__(
             *(MODULE, (json.dumps(told),), CODES),
             one_at_a_time=one_at_a_time,
             first_word_s=LIMIT_S,
             longest_pause_s=0.1,
+            rests_after_s=rests_after_s,
         )
 
     def _check_greeting(self, said: object) -> None:
@@ -47,9 +51,11 @@ def _understood(frame: Frame) -> tuple[int, bytes]:
 
 
 @contextlib.asynccontextmanager
-async def running(*, one_at_a_time: bool = False) -> AsyncIterator[Tiny]:
+async def running(
+    *, one_at_a_time: bool = False, rests_after_s: float = inf
+) -> AsyncIterator[Tiny]:
     """Start a small one, and end it whatever happens."""
-    tiny = Tiny(one_at_a_time=one_at_a_time)
+    tiny = Tiny(one_at_a_time=one_at_a_time, rests_after_s=rests_after_s)
     try:
         await tiny.start(LIMIT_S)
         yield tiny
@@ -67,6 +73,12 @@ async def code_of(answer: Awaitable[object]) -> str:
     with pytest.raises(WorkerFailure) as caught:
         await answer
     return caught.value.code
+
+
+async def until(holds: Callable[[], bool]) -> None:
+    """Wait until something holds, as long as the story may last."""
+    while not holds():  # noqa: ASYNC110  # nothing tells of another process's end
+        await asyncio.sleep(0.01)
 
 
 def story(test: Callable[P, Awaitable[None]]) -> Callable[P, None]:

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import psutil
@@ -15,7 +16,7 @@ import pytest
 
 from processes.parent_death import WORKER_NICE
 from tests.processes.nice_values import leads_its_session, stand_of
-from tests.processes.small_worker import LIMIT_S, Tiny, code_of, pid_of, running, story
+from tests.processes.small_worker import LIMIT_S, Tiny, code_of, pid_of, running, story, until
 from tests.processes.small_worker_main import SPOILS, Trouble
 
 
@@ -78,6 +79,33 @@ async def test_killed_or_frozen_it_fails_typed_and_comes_back(
         assert await code_of(frozen) == ("late" if one_at_a_time else "died")
         assert (await kept.asked())[0] != second
         assert not psutil.pid_exists(second)
+
+
+def _is_gone(pid: int) -> bool:
+    return not psutil.pid_exists(pid)
+
+
+@story
+async def test_unused_it_ends_without_a_word_and_the_next_request_starts_it(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    async with running(rests_after_s=0.05) as kept:
+        for _ in range(2):
+            answered, body = await kept.asked(b"abc")
+            assert body == b"cba"
+            await until(partial(_is_gone, answered))
+    assert not caplog.records
+
+
+@story
+async def test_at_work_it_does_not_rest() -> None:
+    async with running(rests_after_s=0.05) as kept:
+        first = pid_of(kept)
+        os.kill(first, signal.SIGSTOP)
+        waiting = asyncio.create_task(kept.asked(b"abc"))
+        await asyncio.sleep(0.2)
+        os.kill(first, signal.SIGCONT)
+        assert await waiting == (first, b"cba")
 
 
 @story

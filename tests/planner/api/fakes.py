@@ -271,6 +271,7 @@ class FakeEars:
         self.sounds: list[Sound] = []
         self.awaited: list[bool] = []
         self.listeners: list[StopListener] = []
+        self.warmed = 0
 
     async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         self.awaited.append(awaits_answer)
@@ -278,6 +279,9 @@ class FakeEars:
         if isinstance(self.heard, VoiceFailure):
             raise self.heard
         return self.heard
+
+    def warm(self) -> None:
+        self.warmed += 1
 
     def listen(self) -> tuple[StopListener, ...]:
         return tuple(self.listeners)

@@ -26,6 +26,7 @@ class Played:
     def __init__(self, answer: Answered, after: int = 0) -> None:
         self.answer, self.after, self.cancelled = answer, after, False
         self.listeners: tuple[StopListener, ...] = ()
+        self.warmed = 0
 
     async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         try:
@@ -40,6 +41,9 @@ class Played:
             raise self.answer
         assert self.answer is not None
         return self.answer
+
+    def warm(self) -> None:
+        self.warmed += 1
 
     def listen(self) -> tuple[StopListener, ...]:
         return self.listeners

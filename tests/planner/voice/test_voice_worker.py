@@ -12,7 +12,7 @@ import pytest
 
 from planner.voice import Recognition, Sound, VoiceFailure, VoiceWorker, process_client
 from processes import worker_protocol
-from tests.processes.small_worker import story
+from tests.processes.small_worker import story, until
 
 SECOND = Sound(16_000, 1, bytes(32_000))
 ECHO = """
@@ -40,8 +40,10 @@ def stub(act: str) -> tuple[str, ...]:
 
 
 @asynccontextmanager
-async def running(*command: str) -> AsyncIterator[VoiceWorker]:
-    ears = VoiceWorker(("kitchen", "xyzzy"), command or None)
+async def running(
+    *command: str, rests_after_s: float = process_client.RESTS_AFTER_S
+) -> AsyncIterator[VoiceWorker]:
+    ears = VoiceWorker(("kitchen", "xyzzy"), command or None, rests_after_s=rests_after_s)
     try:
         yield ears
     finally:
@@ -81,6 +83,20 @@ async def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
         assert (await ears.hear(SECOND)).understood
         assert (left_out, ears.left_out) == (("xyzzy",), ("corner",))
         assert ears.pid != pid
+
+
+@story
+async def test_where_nobody_speaks_no_process_runs_and_it_is_back_before_the_first_word() -> None:
+    async with running(*stub(TELL), rests_after_s=0.05) as ears:
+        ears.know(("kitchen", "nook"))
+        await asyncio.sleep(0.1)
+        assert ears.pid is None, "new names alone start none"
+        for begin in (ears.warm, ears.listen):
+            begin()
+            await until(lambda: ears.pid is not None)
+            await until(lambda: ears.pid is None)
+            assert ears.left_out == ("nook",)
+        assert (await ears.hear(SECOND)).understood
 
 
 @story
