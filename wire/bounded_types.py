@@ -27,6 +27,8 @@ Code = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
 RowName = Annotated[str, Field(pattern=r"^[A-Z][A-Z0-9_]{0,31}$")]
 Fingerprint = Annotated[str, Field(pattern=r"^[0-9a-f]{16}$")]
 Text = Annotated[str, Field(max_length=400)]
+DevicePath = Annotated[str, Field(pattern=r"^/.+$", max_length=255)]
+"""Of a device on this machine. ``.{1,254}`` would be 1 MB of automaton in each process."""
 
 Seconds = Annotated[float, Field(ge=0.0, le=1e9)]
 """A duration, or a time on the sender's monotonic clock."""

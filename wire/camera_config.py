@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, model_validator
 
 from wire.base import Record
+from wire.bounded_types import DevicePath
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,9 +28,11 @@ class CameraConfig(Record):
     one on the network, at ``url``; ``realsense``: Intel's, with depth; ``ros2``: what the node of a
     ROS 2 robot passes on; ``node``: a process that is none of ours speaks for it; ``none``:
     there is none, and what needs one is refused."""
-    device: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
+    device: DevicePath | None = None
     """Of a ``uvc`` camera; one below /dev/v4l/by-id keeps its name."""
-    url: Annotated[str, Field(pattern=r"^(rtsp|rtsps|http|https|file)://.{1,240}$")] | None = None
+    url: (
+        Annotated[str, Field(pattern=r"^(rtsp|rtsps|http|https|file)://.+$", max_length=248)] | None
+    ) = None
     """Of a ``stream``; ``file://`` is a film, played over and over, for trials."""
     serial: Annotated[str, Field(pattern=r"^[0-9]{6,20}$")] | None = None
     """Of a ``realsense``, where there are several."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
 from wire.base import Record
+from wire.bounded_types import DevicePath
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -64,7 +65,7 @@ class DriveConfig(Record):
 
     kind: Literal["sim", "pons_mcu", "waveshare", "arduino", "turtlebot3", "ros2"] = "sim"
     """``sim``: the simulated drive; the others are bases of metal (docs/drives.md)."""
-    port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
+    port: DevicePath | None = None
     """Serial port of the base; one below /dev/serial/by-id keeps its name."""
     baud: int | None = Field(default=None, ge=9_600, le=4_000_000)
     """None: as its firmware comes."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field, model_validator
 
 from wire.base import Record
+from wire.bounded_types import DevicePath
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -35,7 +36,7 @@ class LidarConfig(Record):
     at ``port`` (docs/lidars.md)."""
     model: Annotated[str, Field(pattern=r"^[a-z0-9]{1,16}$")] | None = None
     """Of the kinds that have several, which differ in speed and answer."""
-    port: Annotated[str, Field(pattern=r"^/.{1,254}$")] | None = None
+    port: DevicePath | None = None
     """Serial port of the lidar; one below /dev/serial/by-id keeps its name."""
     baud: int | None = Field(default=None, ge=9_600, le=4_000_000)
     """None: as the model comes."""

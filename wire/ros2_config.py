@@ -43,7 +43,7 @@ class Nav2Config(Record):
 class Ros2Config(Record):
     """Name the way to a base that ROS 2 drives."""
 
-    node: Annotated[str, Field(pattern=r"^(tcp|tls)/[A-Za-z0-9_.:\[\]-]{1,200}$")]
+    node: Annotated[str, Field(pattern=r"^(tcp|tls)/[A-Za-z0-9_.:\[\]-]+$", max_length=204)]
     """Where the package pons_ros2 listens on the robot; it names the topics."""
     nav2: Nav2Config | None = None
     """Where it is there, Nav2 drives to goals, and Pons' own route is left out."""
