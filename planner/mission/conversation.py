@@ -23,7 +23,7 @@ from planner.mission.outcomes import spot_at
 from planner.plan import Code, GoalState
 
 if TYPE_CHECKING:
-    from planner.mission.state import Mission, MissionState
+    from planner.mission.state import GivenOrder, Mission, MissionState
     from planner.site.site_view import SiteView
     from wire import Pose2
 
@@ -56,7 +56,7 @@ def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situatio
     )
 
 
-def _orders_in(book: MissionState, mission: Mission, state: GoalState) -> tuple[str, ...]:
+def _orders_in(book: MissionState, mission: GivenOrder, state: GoalState) -> tuple[str, ...]:
     """Return the other orders in a state, oldest first."""
     others = (m for m in book.missions.values() if m.state is state and m.id != mission.id)
     return tuple(m.text[:_QUEUED] for m in sorted(others, key=lambda m: m.order))
@@ -77,7 +77,7 @@ def _step(running: Mission) -> str | None:
     return None if step is None else f"{step.kind} {step.place or ''}".strip()
 
 
-def _question(book: MissionState, mission: Mission) -> OpenQuestion | None:
+def _question(book: MissionState, mission: GivenOrder) -> OpenQuestion | None:
     """Return the newest question that waits, besides this goal's own."""
     waiting = [m for m in book.missions.values() if m.state in WAITS and m.id != mission.id]
     newest = max(waiting, key=lambda m: m.updated_unix_s, default=None)
@@ -87,7 +87,7 @@ def _question(book: MissionState, mission: Mission) -> OpenQuestion | None:
     return OpenQuestion(order=newest.text[:_ORDER], asked=asked)
 
 
-def _recent(book: MissionState, mission: Mission, now_unix_s: float) -> tuple[RecentGoal, ...]:
+def _recent(book: MissionState, mission: GivenOrder, now_unix_s: float) -> tuple[RecentGoal, ...]:
     """Return the newest goals before this one that are not under way, newest first."""
     before = (
         m for m in book.missions.values() if m.order < mission.order and m.state not in _UNSEEN

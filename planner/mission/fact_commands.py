@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from planner.memory import Memo, Recollection
     from planner.mission.goal_book import GoalBook
     from planner.mission.memory_lookup import MemoryLookup
-    from planner.mission.state import Mission
+    from planner.mission.state import GivenOrder, Mission
     from planner.site.known_places import KnownPlaces
 
 SPOKEN_BY = "sentence"
@@ -64,7 +64,7 @@ class FactCommands:
         open_ = before.state in (GoalState.NEEDS_CLARIFICATION, GoalState.CANCELLED)
         return asked and open_
 
-    def _said_before(self, given: Mission) -> Mission | None:
+    def _said_before(self, given: GivenOrder) -> Mission | None:
         others = (m for m in self._loop.book.missions.values() if m.order < given.order)
         return max(others, key=lambda m: m.order, default=None)
 

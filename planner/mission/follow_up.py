@@ -29,7 +29,7 @@ from planner.mission.antecedents import fits, name_antecedents, thing_of
 from planner.mission.departure import LEANS_S
 from planner.mission.open_questions import find_choice, find_offered_plan
 from planner.mission.outcomes import spot_at
-from planner.mission.state import goal_to_end
+from planner.mission.state import GivenOrder, goal_to_end
 from planner.plan import (
     Change,
     ChangedOrder,
@@ -212,7 +212,7 @@ def person_of(last: Mission) -> str | None:
     return people.pop() if len(people) == 1 and len(spoken) <= 1 else None
 
 
-def _turned_rad(book: MissionState, last: Mission) -> float:
+def _turned_rad(book: MissionState, last: GivenOrder) -> float:
     """Return how far a turn under way has come; 0 where that is unknown."""
     here = book.status.base_in_map if book.status is not None else None
     if here is None or last.accepted_at is None:

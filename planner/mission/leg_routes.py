@@ -28,7 +28,7 @@ from planner.mission.recovery_steps import (
 from planner.mission.route_doubts import take_doubted
 from planner.mission.scene import scene_of
 from planner.mission.skills import Fail, Way, act_of
-from planner.mission.state import Mission
+from planner.mission.state import Mission, Progress
 from planner.mission.step_execution import carry_out
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -127,7 +127,7 @@ def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Rou
     turn.change(manoeuvre=own, leg=None)
 
 
-def _stay_aside(turn: Transaction, mission: Mission, leg: Driving, own: Manoeuvre) -> None:
+def _stay_aside(turn: Transaction, mission: Progress, leg: Driving, own: Manoeuvre) -> None:
     """Stand where it is, where somebody can pass; a leg that is streamed goes on by itself."""
     until_s = turn.now_s + aside_s(mission.recovery)
     turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
@@ -173,7 +173,7 @@ def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: st
         next_rung(turn)
 
 
-def _waits_on(turn: Transaction, mission: Mission, leg: Driving) -> bool:
+def _waits_on(turn: Transaction, mission: Progress, leg: Driving) -> bool:
     """Tell whether the wait that is in hand goes on: what stands there may leave any moment."""
     rung, since_s = rung_of(mission.recovery), leg.rung_since_s
     waits = rung.recovery is Recovery.WAIT and since_s is not None

@@ -23,7 +23,7 @@ from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, tell_declined
 from planner.mission.skills.skill_state import BoundedSearchState
-from planner.mission.state import MAX_ANSWERS, MAX_OPEN, Mission, MissionState
+from planner.mission.state import MAX_ANSWERS, MAX_OPEN, GivenOrder, Mission, MissionState, Thinking
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact, PersonCause
 from planner.plan import (
@@ -70,7 +70,7 @@ def find_offer(mission: Mission) -> str | None:
     return only if only is not None and not is_stop(only) else None
 
 
-def find_choice(mission: Mission, answer: str) -> str | None:
+def find_choice(mission: Thinking, answer: str) -> str | None:
     """Return the one of several orders, offered by the grammar's question, that an answer names.
 
     A model reads the answer itself.
@@ -118,7 +118,7 @@ def note_answer(turn: Transaction, mission: Mission, text: str) -> Mission:
     return turn.put(mission, replies=(*mission.replies, text), questions=questions)
 
 
-def tell_offer(mission: Mission, question: Bilingual) -> Bilingual:
+def tell_offer(mission: Thinking, question: Bilingual) -> Bilingual:
     """Return a model's question with the one order that a yes to it gives, where it hides that.
 
     "Shall I say hello?" with “go to the bathroom” behind it would make a yes an order unheard. A
@@ -258,7 +258,7 @@ def end_unanswered(turn: Transaction) -> None:
         turn.set(asked_s=asked_s)
 
 
-def ask_anew(turn: Transaction, mission: Mission) -> None:
+def ask_anew(turn: Transaction, mission: GivenOrder) -> None:
     """Forget since when a goal waits: it was answered, and may ask again."""
     left = {i: s for i, s in turn.book.asked_s.items() if i != mission.id}
     turn.set(asked_s=left)
@@ -269,7 +269,7 @@ def waiting_since(missions: dict[str, Mission], now_s: float) -> dict[str, float
     return {m.id: now_s for m in missions.values() if m.state in WAITS}
 
 
-def close_older(turn: Transaction, new: Mission) -> None:
+def close_older(turn: Transaction, new: GivenOrder) -> None:
     """End the brain's questions about older orders of the same source: a new order came instead.
 
     A question of a step and a plan that waits for its yes stay: they have their time.

@@ -11,7 +11,7 @@ from planner.language.catalogue import message, say
 from planner.language.formatting import definite
 from planner.language.questions import looks_round
 from planner.mission.account import MOTION, account, place_name
-from planner.mission.state import Mission
+from planner.mission.state import GivenOrder, Mission, Progress
 from planner.plan import (
     Bilingual,
     Code,
@@ -79,12 +79,12 @@ def asked_spot(facts: SiteView, mission: Mission, step: StepRecord) -> Spot | No
     return spot_at(facts, target.pose, target.id)
 
 
-def accepted_at(mission: Mission) -> Pose2 | None:
+def accepted_at(mission: GivenOrder) -> Pose2 | None:
     """Return the pose in ``map`` at which the goal was accepted, where it was known."""
     return Pose2(*mission.accepted_at) if mission.accepted_at is not None else None
 
 
-def limits(mission: Mission) -> tuple[str, ...]:
+def limits(mission: Progress) -> tuple[str, ...]:
     """Return the bridge's names for the limits on the speed, the longest first."""
     counts = mission.limited
     total = sum(counts.values())

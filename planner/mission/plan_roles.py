@@ -33,7 +33,7 @@ from planner.plan import (
 )
 
 if TYPE_CHECKING:
-    from planner.mission.state import Mission
+    from planner.mission.state import GivenOrder, Mission
     from planner.mission.transaction import Transaction
     from planner.plan import StepPlan
 
@@ -56,7 +56,7 @@ IN_HAND = frozenset(
 )
 
 
-def goal_in_hand(turn: Transaction, new: Mission) -> Mission | None:
+def goal_in_hand(turn: Transaction, new: GivenOrder) -> Mission | None:
     """Return the goal that "forget that" means: the running, else the newest that thinks or asks.
 
     A goal that a person paused keeps its place, and so do those that wait.
@@ -123,7 +123,7 @@ def end_current(turn: Transaction, mission: Mission, target: Mission | None) -> 
     _answer(turn, mission, say("commands.done", done=say("commands.cancelled"), text=text))
 
 
-def _goals_in(turn: Transaction, new: Mission, *states: GoalState) -> list[Mission]:
+def _goals_in(turn: Transaction, new: GivenOrder, *states: GoalState) -> list[Mission]:
     """Return the other goals in these states, oldest first."""
     others = (m for m in turn.book.missions.values() if m.state in states and m.id != new.id)
     return sorted(others, key=lambda m: m.order)

@@ -21,7 +21,7 @@ from planner.mission.activity import (
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended_outcome, failure
 from planner.mission.skills.state_base import SkillStateBase
-from planner.mission.state import AGENT_SOURCE, Mission
+from planner.mission.state import AGENT_SOURCE, GivenOrder, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
 from planner.plan import (
@@ -46,7 +46,7 @@ def enqueue(turn: Transaction, mission: Mission, cause: Cause, *, first: bool = 
     turn.set(queue=(*waiting[:at], mission.id, *waiting[at:]))
 
 
-def _was_asked_after(other: Mission, mission: Mission) -> bool:
+def _was_asked_after(other: Mission, mission: GivenOrder) -> bool:
     """Tell whether another mission only waits for its turn, and was asked for later."""
     return other.order > mission.order and not _goes_first(other)
 
@@ -152,7 +152,7 @@ def _settle_step(
     )
 
 
-def skill_state_now(mission: Mission, activity: Activity | None) -> SkillStateBase | None:
+def skill_state_now(mission: Progress, activity: Activity | None) -> SkillStateBase | None:
     """Return what the running step's skill remembers now; None: nothing yet."""
     kept = activity.act.state if isinstance(activity, (Driving, Observing, AskingImage)) else None
     return kept if kept is not None else mission.skill_state

@@ -50,39 +50,22 @@ MAX_ENDED = 200
 """Ended goals kept at hand; the journal keeps ten times as many."""
 
 
-class Mission(Frozen):
-    """Keep one goal whole: enough to show it, and to take it up again after a crash."""
+class GivenOrder(Frozen):
+    """Keep what was asked: the words or steps, from whom, and from where they were said."""
 
     id: str
     order: int
     """Rises with every goal given."""
     text: str
     language: Language
-    state: GoalState
-    reason: str | None = None
     changed: ChangedOrder | None = None
     """What its text makes of the order before it: "again", "no, the study"."""
     points: tuple[Step, ...] = ()
     """What it was given as, in place of words: points of the map or other steps, its whole plan."""
-    replies: tuple[str, ...] = ()
-    """What the person answered to our questions, in order."""
-    questions: tuple[str, ...] = ()
-    """What was asked before each of them; empty where an older program kept none."""
     source: str = "api"
     """Who gave it: a new order of the same source closes what a brain asked about older ones."""
     by: str = "api"
     """The door that it came through: shown to people, and decides nothing."""
-    stopped_by: str | None = None
-    """Likewise of the stop that paused it last."""
-    answers: tuple[GoalAnswer, ...] = ()
-    """What people answered to any question of it; kept to be shown."""
-    plan: PlanRecord | None = None
-    outcome: Outcome | None = None
-    brain: BrainTag | None = None
-    sure: PlanRecord | None = None
-    """What the built-in brain read in the order: offered where a model's plan gets a no."""
-    confirm: bool = False
-    """Wait for a yes before the first step."""
     replace: bool = False
     first: bool = False
     """It comes in place of a goal that was taken back: nobody who waits overtakes it."""
@@ -90,15 +73,70 @@ class Mission(Frozen):
     """Its sentence holds a stop word and stopped the robot before it was thought about."""
     interrupted: str | None = None
     """The goal that was paused by that stop; a correction ends it."""
-    given_under_hold: str | None = None
-    """The bridge's hold that stood when a person last spoke for this goal. Once a plan is made and
-    accepted, that hold is cleared, and no hold that came later."""
+    map_id: str = ""
+    """The map that every pose here is on; empty in records of older programs."""
+    accepted_at: tuple[float, float, float] | None = None
+    """Where the robot stood when the goal was accepted: x [m], y [m], yaw [rad] in ``map``. Where
+    the goal begins with coming back: when the order before it was given."""
+    departed_at: tuple[float, float, float] | None = None
+    """Where the robot stood when the order before was given, where that is beyond doubt."""
+
+    @property
+    def order_text(self) -> str:
+        """Return the part of the text that is an order by itself."""
+        return self.text if self.changed is None else self.changed.words or self.text
+
+
+class Consent(Frozen):
+    """Keep what people answered to a goal, and what it still waits for from them."""
+
+    replies: tuple[str, ...] = ()
+    """What the person answered to our questions, in order."""
+    questions: tuple[str, ...] = ()
+    """What was asked before each of them; empty where an older program kept none."""
+    answers: tuple[GoalAnswer, ...] = ()
+    """What people answered to any question of it; kept to be shown."""
+    sure: PlanRecord | None = None
+    """What the built-in brain read in the order: offered where a model's plan gets a no."""
+    confirm: bool = False
+    """Wait for a yes before the first step."""
     held: bool = False
     """Queued, and kept there until a person resumes or cancels it."""
     kept: bool = False
     """It is held by more than a question of the goal before it: no answer lets it go."""
-    map_id: str = ""
-    """The map that every pose here is on; empty in records of older programs."""
+    given_under_hold: str | None = None
+    """The bridge's hold that stood when a person last spoke for this goal. Once a plan is made and
+    accepted, that hold is cleared, and no hold that came later."""
+    stopped_by: str | None = None
+    """Likewise of the stop that paused it last."""
+    speed_share: float = Field(default=1.0, ge=0.0, le=1.0)
+    """Of the planned speeds' cap: a person said "slow down" while it ran."""
+    grants: int = Field(default=0, ge=0)
+    """Longer searches that a person said yes to: each is a grant of the bridge's of its own."""
+
+
+class Thinking(Frozen):
+    """Keep the plan that was made of an order, and the thoughts spent on it."""
+
+    plan: PlanRecord | None = None
+    brain: BrainTag | None = None
+    tried: tuple[str, ...] = ()
+    """Fingerprints of the plans that were taken: the same again leads nowhere."""
+    replans: int = 0
+    """Thoughts spent on steps that failed."""
+    decides: int = 0
+    """Thoughts spent on ``decide`` steps."""
+    failure: Outcome | None = None
+    """Why a step failed, while a new plan is thought about or the robot drives back after it."""
+
+    @property
+    def steps(self) -> tuple[StepRecord, ...]:
+        return self.plan.steps if self.plan is not None else ()
+
+
+class Progress(Frozen):
+    """Keep how far a goal has come: of its plan, of its current step, and on the floor."""
+
     step: int = 0
     part: int = 0
     """Legs of the current step that were reached: what was done of it is not done again."""
@@ -114,30 +152,24 @@ class Mission(Frozen):
     """Time for which the current step was worked on."""
     step_m: float = 0.0
     """What was driven for it."""
-    replans: int = 0
-    """Thoughts spent on steps that failed."""
-    decides: int = 0
-    """Thoughts spent on ``decide`` steps."""
-    tried: tuple[str, ...] = ()
-    """Fingerprints of the plans that were taken: the same again leads nowhere."""
-    failure: Outcome | None = None
-    """Why a step failed, while a new plan is thought about or the robot drives back after it."""
     leg: int = 0
     """The newest leg of this mission; legs only rise."""
-    accepted_at: tuple[float, float, float] | None = None
-    """Where the robot stood when the goal was accepted: x [m], y [m], yaw [rad] in ``map``. Where
-    the goal begins with coming back: when the order before it was given."""
-    departed_at: tuple[float, float, float] | None = None
-    """Where the robot stood when the order before was given, where that is beyond doubt."""
-    speed_share: float = Field(default=1.0, ge=0.0, le=1.0)
-    """Of the planned speeds' cap: a person said "slow down" while it ran."""
     metres: float = 0.0
-    grants: int = Field(default=0, ge=0)
-    """Longer searches that a person said yes to: each is a grant of the bridge's of its own."""
     granted_at_m: float = 0.0
     """What was driven for the goal before the grant that holds now."""
     limited: dict[str, int] = Field(default_factory=dict)
     """Statuses during which the bridge's limit of that name was the nearest one."""
+
+
+class Mission(GivenOrder, Consent, Thinking, Progress):
+    """Keep one goal whole: enough to show it, and to take it up again after a crash.
+
+    Each idea is a record, which is all that many a function takes; the journal keeps them as one.
+    """
+
+    state: GoalState
+    reason: str | None = None
+    outcome: Outcome | None = None
     created_unix_s: float
     updated_unix_s: float
 
@@ -164,18 +196,9 @@ class Mission(Frozen):
         return self.state in ENDED
 
     @property
-    def steps(self) -> tuple[StepRecord, ...]:
-        return self.plan.steps if self.plan is not None else ()
-
-    @property
     def words(self) -> str:
         """Return the newest thing that the person said about this goal, to be understood."""
         return self.replies[-1] if self.replies else self.text
-
-    @property
-    def order_text(self) -> str:
-        """Return the part of the text that is an order by itself."""
-        return self.text if self.changed is None else self.changed.words or self.text
 
     @property
     def grant_name(self) -> str:

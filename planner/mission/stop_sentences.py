@@ -14,7 +14,7 @@ from planner.mission.events import Planned
 from planner.mission.plan_roles import ends_goal, takes_back
 from planner.mission.queue import cancel, finish
 from planner.mission.spoken_status import stop_told
-from planner.mission.state import Mission, MissionState
+from planner.mission.state import GivenOrder, Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import PersonCause
 from planner.plan import (
@@ -70,7 +70,7 @@ def tell_left(rest: str) -> Bilingual | None:
     return say("goal.rest_left", text=_short(rest)) if rest else None
 
 
-def _tell_rest(turn: Transaction, mission: Mission, plan: Plan | None) -> Bilingual | None:
+def _tell_rest(turn: Transaction, mission: GivenOrder, plan: Plan | None) -> Bilingual | None:
     """Say what became of the words behind a stop, of which no step has come."""
     rest = parse(mission.text).behind_stop
     if rest and isinstance(plan, AnswerPlan | Refuse):
@@ -100,7 +100,7 @@ def corrects(turn: Transaction, mission: Mission) -> bool:
     return stopped is not None and bool(stopped.steps) and takes_back(words)
 
 
-def ask_what_was_meant(book: MissionState, mission: Mission) -> Bilingual:
+def ask_what_was_meant(book: MissionState, mission: GivenOrder) -> Bilingual:
     """Ask whether a sentence with a stop word in it was an order to do something."""
     told, text = stop_told(book), _short(mission.text)
     return say("goal.doubtful_stop", told=told, text=text)

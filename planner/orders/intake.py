@@ -16,7 +16,7 @@ from planner.language.catalogue import join, say
 from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand, ScheduleCommand
 from planner.language.sentence import parse
 from planner.mission.events import Planned
-from planner.mission.state import ORDER_SOURCE
+from planner.mission.state import ORDER_SOURCE, GivenOrder
 from planner.orders import world
 from planner.orders.decision import (
     KeptOrders,
@@ -160,7 +160,7 @@ class OrderIntake:
         return await self._goals.consider(command.order, ask.language, ask.id, ask.text, ask.deed)
 
     async def _keep(
-        self, command: ScheduleCommand, ask: AskBrain, given: Mission, planned: Planned | None
+        self, command: ScheduleCommand, ask: AskBrain, given: GivenOrder, planned: Planned | None
     ) -> AnswerPlan | Clarify | Refuse:
         """Keep a new order and tell it, or say why not."""
         try:
