@@ -133,9 +133,10 @@ def _message(mission: MissionRow, outcome: dict[str, Any] | None) -> dict[str, s
     if mission.state == UNKNOWN and mission.unknown_since_unix_s is not None:
         since = datetime.fromtimestamp(mission.unknown_since_unix_s, UTC).astimezone()
         clock = f"{since:%H:%M}"
+        who = mission.robot
         return {
-            "en": f"unknown since {clock}: {mission.robot} does not answer; it may go on by itself",
-            "zh": f"{clock} 起情况不明：{mission.robot} 没有应答；它可能仍在执行",
+            "en": f"unknown since {clock}: {who} tells nothing of it; it may go on by itself",
+            "zh": f"{clock} 起情况不明：{who} 没有告知它的情况；它可能仍在执行",
         }
     if mission.goal_state == PAUSED and not mission.is_over:
         return tell("paused_there", {"name": mission.robot})
