@@ -197,11 +197,11 @@ def _try(settings: LaunchSettings, text: str, *, as_json: bool) -> int:
 
     bare = _names(settings)
     read = read_folder(settings.home / FOLDER, bare)
-    for problem in read.problems:
-        _tell(problem, EXIT_FOUND)
     names = with_skills(bare, read.skills)
     made = plan(text, names, Context(runnable=EVERY_KIND | names.calls))
     if not isinstance(made, StepPlan) or not holds_call(made.steps):
+        for problem in read.problems:  # it may be one that can't be read
+            _tell(problem, EXIT_FOUND)
         told = pick("these words call no skill; they are", "这句话不调用技能；技能有")
         print(
             f"skill_not_called: {told}: {', '.join(s.name for s in read.skills)}", file=sys.stderr

@@ -50,6 +50,11 @@ def test_what_is_wrong_is_told_with_its_line_in_one_language(
     for named in ([], [str(bad)]):
         assert run(settings, ["check", *named]) == 1
         assert capsys.readouterr().err.startswith("bad.toml:3: skill_step: This is no step")
+    assert run(settings, ["new", "evening_round"]) == 0
+    assert run(settings, ["try", "do the evening round"]) == 0
+    assert not capsys.readouterr().err, "the other file has no part in it"
+    assert run(settings, ["try", "do the round"]) == 1
+    assert "bad.toml:3" in capsys.readouterr().err
     monkeypatch.setenv("LC_ALL", "zh_CN.UTF-8")
     assert run(settings, ["check"]) == 1
     assert "bad.toml:3: skill_step: 这不是" in capsys.readouterr().err
