@@ -17,7 +17,7 @@ from planner.plan import Bilingual, Code, StepState, say_same
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from planner.mission.state import Mission, Progress, Thinking
+    from planner.mission.state import Mission, Planning, Progress
     from planner.plan import StepRecord
     from planner.site.site_view import SiteView
 
@@ -52,7 +52,7 @@ def account(facts: SiteView, mission: Mission, code: Code, said: Bilingual | Non
     return _join_sentences(told) if told else message(Code.DONE)
 
 
-def outcome_code(mission: Thinking) -> Code:
+def outcome_code(mission: Planning) -> Code:
     """Return the code of a goal whose steps are all over: that of its last step that counts.
 
     Words and waits count for nothing; after a drive that failed nobody has arrived.
@@ -142,7 +142,7 @@ def _after(sentence: Bilingual, *, instead: bool) -> Iterator[Bilingual]:
     yield say("account.instead", sentence=sentence) if instead else sentence
 
 
-def _find_replan(mission: Thinking) -> int:
+def _find_replan(mission: Planning) -> int:
     """Return before which step another plan has taken the place of each that failed."""
     if mission.failure is None:
         return len(mission.steps)

@@ -10,7 +10,7 @@ from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.language.catalogue import list_names, say
 from planner.language.formatting import angle, metres
 from planner.mission.plan_walk import NOT_CHOSEN
-from planner.mission.state import Consent, Mission, Thinking
+from planner.mission.state import Consent, Mission, Planning
 from planner.plan import CONTROL, Bilingual, StepRecord, StepState, say_same
 from planner.site.site_view import SiteView
 
@@ -49,7 +49,7 @@ def _is_over(step: StepRecord) -> bool:
 
 
 def _observation(
-    facts: SiteView, mission: Thinking, step: StepRecord, *, newest: bool
+    facts: SiteView, mission: Planning, step: StepRecord, *, newest: bool
 ) -> Observation:
     answered = step.kind == "ask" and step.answer is not None
     result = "answered" if answered else RESULTS.get(step.state, "succeeded")

@@ -23,7 +23,7 @@ from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.skills import Fail
 from planner.mission.skills.ask import ask, tell_declined
 from planner.mission.skills.skill_state import BoundedSearchState
-from planner.mission.state import MAX_ANSWERS, MAX_OPEN, GivenOrder, Mission, MissionState, Thinking
+from planner.mission.state import MAX_ANSWERS, MAX_OPEN, GivenOrder, Mission, MissionState, Planning
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact, PersonCause
 from planner.plan import (
@@ -70,7 +70,7 @@ def find_offer(mission: Mission) -> str | None:
     return only if only is not None and not is_stop(only) else None
 
 
-def find_choice(mission: Thinking, answer: str) -> str | None:
+def find_choice(mission: Planning, answer: str) -> str | None:
     """Return the one of several orders, offered by the grammar's question, that an answer names.
 
     A model reads the answer itself.
@@ -118,7 +118,7 @@ def note_answer(turn: Transaction, mission: Mission, text: str) -> Mission:
     return turn.put(mission, replies=(*mission.replies, text), questions=questions)
 
 
-def tell_offer(mission: Thinking, question: Bilingual) -> Bilingual:
+def tell_offer(mission: Planning, question: Bilingual) -> Bilingual:
     """Return a model's question with the one order that a yes to it gives, where it hides that.
 
     "Shall I say hello?" with “go to the bathroom” behind it would make a yes an order unheard. A

@@ -180,7 +180,8 @@ def rung_after(record: RecoveryRecord) -> int:
         recovery = LADDER[place].recovery
         gives = recovery is Recovery.GIVE_WAY and not can_give_way(record)
         looks = recovery is Recovery.LOOK and walked
-        leaves = recovery is Recovery.BACK_OFF and passes_m(record) > 0.0
+        stays = passes_m(record) > 0.0 and waits_for_other(record)
+        leaves = recovery is Recovery.BACK_OFF and stays
         if not (gives or looks or leaves):
             break
         place += 1

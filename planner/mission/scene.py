@@ -20,7 +20,7 @@ from planner.mission.plan_walk import catch
 from planner.mission.queue import skill_state_now
 from planner.mission.skills import ImageAnswer, Scene, begin_state
 from planner.mission.skills.search_bounds import GRANT_M
-from planner.mission.state import ORDER_SOURCE, Mission, Thinking
+from planner.mission.state import ORDER_SOURCE, Mission, Planning
 from planner.mission.transaction import Transaction
 from planner.plan import (
     JUDGED,
@@ -193,7 +193,7 @@ def name_sought(step: StepRecord) -> Bilingual:
     return name_object(words) if words in KINDS else say_same(words)
 
 
-def can_think(rules: Rules, mission: Thinking) -> bool:
+def can_think(rules: Rules, mission: Planning) -> bool:
     """Tell whether the brain that planned a goal may read an answer: the offline one has no way."""
     brain = mission.brain
     return brain is not None and brain.name != OFFLINE and mission.decides < rules.decides

@@ -115,7 +115,7 @@ class Consent(Frozen):
     """Longer searches that a person said yes to: each is a grant of the bridge's of its own."""
 
 
-class Thinking(Frozen):
+class Planning(Frozen):
     """Keep the plan that was made of an order, and the thoughts spent on it."""
 
     plan: PlanRecord | None = None
@@ -161,7 +161,7 @@ class Progress(Frozen):
     """Statuses during which the bridge's limit of that name was the nearest one."""
 
 
-class Mission(GivenOrder, Consent, Thinking, Progress):
+class Mission(GivenOrder, Consent, Planning, Progress):
     """Keep one goal whole: enough to show it, and to take it up again after a crash.
 
     Each idea is a record, which is all that many a function takes; the journal keeps them as one.
