@@ -16,7 +16,7 @@ trap 'rm -rf "$memory"' EXIT
 set -- -o cache_dir="$memory" "$@"
 cores=$(nproc)
 .venv/bin/python -m scripts.stolen .venv/bin/python -m pytest \
-  -n $((cores < 3 ? cores + 1 : 3)) --dist loadfile --no-loadscope-reorder --durations 12 "$@" 9>&-
+  -n $((cores < 3 ? cores + 1 : 3)) --dist loadfile --no-loadscope-reorder --durations 40 "$@" 9>&-
 first=$?
 # 1 and 75: stories failed; all else (Ctrl-C, bad usage, a contact that was seen) is not tried again.
 [ "$first" = 1 ] || [ "$first" = 75 ] || exit "$first"
