@@ -75,7 +75,7 @@ class LegDoubts:
     made_way_s: float = float("-inf")
     """When it was last decided who makes way."""
     closed_in_s: float = float("-inf")
-    """When another robot was last seen near, and to drive towards this one."""
+    """When another robot was last about to touch this one, as both went on."""
     bends: int = 0
     """Ways taken because the one before was doubted."""
 

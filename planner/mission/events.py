@@ -124,7 +124,7 @@ class Oncoming:
 
 @dataclass(frozen=True, slots=True)
 class ClosingIn:
-    """One as wide as a robot is near, and drives towards the robot that drives this leg."""
+    """Another robot and the one that drives this leg are about to touch, as both go on."""
 
     id: str
     leg: int

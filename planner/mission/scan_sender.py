@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     from planner.bridge_client import Link
     from planner.mission.engine import WayAhead
     from planner.navigation import ObstacleReport
-    from wire import Scan
-    from wire.lidar_config import LidarConfig
+    from wire import RobotDescription, Scan
 
 log = logging.getLogger(__name__)
 
@@ -51,7 +50,7 @@ class ScanSender:
     def __init__(
         self,
         link: Link,
-        lidar: LidarConfig,
+        robot: RobotDescription,
         map_id: str,
         observer: ScanObserver,
         ahead: Callable[[], WayAhead | None],
@@ -61,15 +60,17 @@ class ScanSender:
 
         Args:
             link: hears scans, odometry and localization.
-            lidar: where it sits on the robot.
+            robot: where its lidar sits, and how wide it is.
             map_id: of the site; what is said on another map places nothing.
             observer: keeps the layer.
             ahead: returns the way that the robot is on; None: it is to stand.
             clock: our own.
         """
-        self._link, self._lidar, self._observer = link, lidar, observer
+        self._link, self._observer, lidar = link, observer, robot.lidar
         self._ahead, self._clock = ahead, clock
         self._poses = Poses(map_id)
+        self._radius_m = robot.base.radius_m
+        self._newest = self._before = (0.0, 0.0, float("-inf"))
         self._lidar_in_base = Pose2(lidar.x_m, lidar.y_m, lidar.yaw_rad)
         self.shown: Scan | None = None
         """The newest scan that was shown."""
@@ -92,6 +93,8 @@ class ScanSender:
         if stance is None:
             return None
         self.shown, self._shown_s, self._busy = scan, now_s, True
+        here = stance.base_in_map
+        self._before, self._newest = self._newest, (here.x_m, here.y_m, _middle_s(scan))
         self._way = self._ahead()
         return ScanObservation(
             base_in_map=stance.base_in_map,
@@ -136,8 +139,14 @@ class ScanSender:
             seen_m, at = (who.x_m, who.y_m), (met.at_m, met.far_m)
             tell(Oncoming(way.mission, way.leg, *at, seen_m, who.radius_m))
         here = (seen.base_in_map.x_m, seen.base_in_map.y_m)
-        if is_closing_in(here, self.report.movers):
+        if is_closing_in(here, self._velocity(), self._radius_m, self.report.movers):
             tell(ClosingIn(way.mission, way.leg))
+
+    def _velocity(self) -> Point:
+        """Return the robot's velocity in ``map`` between the two newest scans [m/s]."""
+        (x_m, y_m, at_s), (ox_m, oy_m, before_s) = self._newest, self._before
+        gone_s = at_s - before_s
+        return ((x_m - ox_m) / gone_s, (y_m - oy_m) / gone_s) if gone_s > 0.0 else (0.0, 0.0)
 
 
 def _point_along(way: tuple[Point, ...], far_m: float) -> Point:

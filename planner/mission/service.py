@@ -121,7 +121,7 @@ class Missions:
 
     def show_scans(self, observer: ScanObserver) -> None:
         """Show scans to the route search, which remembers what the map does not know."""
-        of, ahead = (self._robot.lidar, self.memory.site.map_id, observer), self.loop.way_ahead
+        of, ahead = (self._robot, self.memory.site.map_id, observer), self.loop.way_ahead
         self.obstacles = ScanSender(self.link, *of, ahead, self._clocks.monotonic)
         self.loop.show_scans(self.obstacles)
 

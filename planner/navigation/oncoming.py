@@ -24,9 +24,8 @@ TOWARDS_MPS, WIDE_TOWARDS_MPS = 0.25, 0.1
 MOSTLY = 0.7
 """Of a mover's speed, the share that leads towards the robot: the rest is crossing."""
 
-NEAR_M, CLOSES_MPS = 1.3, 0.1
-"""From middle to middle, and the part of its speed that leads towards the robot: another robot that
-is nearer, and comes nearer faster, is closing in."""
+AHEAD_S, CLEAR_M = 1.5, 0.15
+"""Another robot is met where both, as they go on, come nearer to each other than this by then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,18 +50,26 @@ def find_oncoming(way: Sequence[Point], movers: Sequence[Mover]) -> Encounter | 
     return min(met, key=lambda one: one.far_m) if met else None
 
 
-def is_closing_in(at: Point, movers: Sequence[Mover]) -> bool:
-    """Tell whether one as wide as a robot, who is near, drives towards a point from anywhere.
+def is_closing_in(at: Point, velocity_mps: Point, radius_m: float, movers: Sequence[Mover]) -> bool:
+    """Tell whether the robot and another one, as both go on, are about to touch.
+
+    By the closest point of approach of two discs that move straight on.
 
     Args:
         at: where the robot is, in ``map`` [m].
-        movers: what moves, in ``map``.
+        velocity_mps: of the robot, in ``map``.
+        radius_m: the disc that holds the robot.
+        movers: what moves, in ``map``; only one as wide as a robot counts.
     """
     for mover in movers:
-        x_m, y_m = at[0] - mover.x_m, at[1] - mover.y_m
-        away_m = hypot(x_m, y_m)
-        towards = mover.vx_mps * x_m + mover.vy_mps * y_m >= CLOSES_MPS * away_m
-        if is_wide(mover.radius_m) and away_m <= NEAR_M and towards:
+        x_m, y_m = mover.x_m - at[0], mover.y_m - at[1]
+        vx_mps, vy_mps = mover.vx_mps - velocity_mps[0], mover.vy_mps - velocity_mps[1]
+        squared = vx_mps**2 + vy_mps**2
+        if not (is_wide(mover.radius_m) and squared > 0.0):
+            continue
+        nearest_s = min(-(x_m * vx_mps + y_m * vy_mps) / squared, AHEAD_S)
+        left_m = hypot(x_m + nearest_s * vx_mps, y_m + nearest_s * vy_mps)
+        if nearest_s > 0.0 and left_m <= radius_m + mover.radius_m + CLEAR_M:
             return True
     return False
 

@@ -35,7 +35,15 @@ class FakeLink:
     def tell(self, poses: Poses) -> None:
         self.listeners.append(poses)
 
-    def turn(self, seq: int, stamp_s: float, *, age_s: float = 0.05, posed: bool = True) -> None:
+    def turn(
+        self,
+        seq: int,
+        stamp_s: float,
+        *,
+        age_s: float = 0.05,
+        posed: bool = True,
+        x_m: float = 0.0,
+    ) -> None:
         """Let a scan come in, and the poses around it."""
         scan = Scan(
             boot_id="l", seq=seq, stamp_s=stamp_s, angle_min_rad=-pi, angle_increment_rad=pi / 4,
@@ -44,7 +52,7 @@ class FakeLink:
         self.scan = Aged(scan, age_s)
         for poses in self.listeners if posed else ():
             for at_s in (stamp_s - 0.05, stamp_s + 0.05):
-                poses.odometry(moved(at_s, 0.0))
+                poses.odometry(moved(at_s, x_m))
                 poses.localization(placed(at_s))
 
 
@@ -77,7 +85,7 @@ class Showing:
 
     def __post_init__(self) -> None:
         self.sender = ScanSender(
-            cast("Link", self.link), RobotDescription().lidar, MAP, self.observer,
+            cast("Link", self.link), RobotDescription(), MAP, self.observer,
             lambda: self.way, lambda: self.now_s,
         )  # fmt: skip
 
@@ -130,14 +138,17 @@ def test_the_spot_lies_on_the_way_wherever_it_is_closed(blocked_m: float) -> Non
     assert doubt.at_m == pytest.approx((min(blocked_m, 2.0), 0.0))
 
 
-def test_another_robot_that_closes_in_is_told_whatever_its_way() -> None:
-    crosses = Mover(1, moved(1.0, 0.0).base_in_odom.x_m + 10.0, 1.0, 0.0, -0.4, 0.35)
-    showing = Showing(Observer(movers=(crosses,)))
-    for seq in (1, 2):
-        showing.link.turn(seq, float(seq))
+def test_another_robot_that_closes_in_is_told_by_how_fast_the_robot_itself_drives() -> None:
+    """Driven at half a metre a second, it comes upon one that stands still on its way."""
+    observer = Observer()
+    showing, told = Showing(observer), []
+    for seq in (1, 2, 3):
+        showing.link.turn(seq, float(seq), x_m=0.5 * seq)
+        observer.movers = (Mover(1, 10.9 + 0.5 * seq, 0.0, 0.0, 0.0, 0.35),)
         assert showing.show()
-        assert showing.doubts == [ClosingIn("g1", 3)], "and is none where it stands"
-        showing.way, showing.now_s = None, showing.now_s + PERIOD_S
+        told.append(list(showing.doubts))
+        showing.way, showing.now_s = WAY if seq == 1 else None, showing.now_s + PERIOD_S
+    assert told == [[], [ClosingIn("g1", 3)], [ClosingIn("g1", 3)]], "none while it is to stand"
 
 
 def test_a_robot_that_stands_has_no_way_to_doubt() -> None:

@@ -7,9 +7,10 @@ from math import cos, sin
 import pytest
 
 from planner.navigation import Mover
-from planner.navigation.oncoming import CLOSES_MPS, NEAR_M, find_oncoming, is_closing_in
+from planner.navigation.oncoming import AHEAD_S, CLEAR_M, find_oncoming, is_closing_in
 from planner.navigation.route import WIDE_M
 
+RADIUS_M = WIDE_M + 0.02
 WAY = tuple((0.1 * i, 0.0) for i in range(51))
 
 
@@ -53,28 +54,36 @@ def test_on_a_way_without_length_nobody_comes(way: tuple[tuple[float, float], ..
 
 
 def robot(x_m: float, y_m: float, vx_mps: float, vy_mps: float) -> Mover:
-    return Mover(1, x_m, y_m, vx_mps, vy_mps, WIDE_M + 0.02)
+    return Mover(1, x_m, y_m, vx_mps, vy_mps, RADIUS_M)
 
 
 @pytest.mark.parametrize("from_rad", [0.0, 1.0, 2.5, -1.7])
-def test_another_robot_closes_in_from_wherever_it_comes(from_rad: float) -> None:
+def test_two_that_drive_towards_each_other_close_in_until_they_have_met(from_rad: float) -> None:
     x_m, y_m = cos(from_rad), sin(from_rad)
     for share in (1.0, -1.0):
-        vx_mps, vy_mps = -0.4 * x_m * share, -0.4 * y_m * share
-        other = robot(2.0 + x_m, y_m - 3.0, vx_mps, vy_mps)
-        assert is_closing_in((2.0, -3.0), [other]) is (share > 0.0)
+        other = robot(2.0 + x_m, y_m - 3.0, -0.4 * x_m * share, -0.4 * y_m * share)
+        own = (0.4 * x_m * share, 0.4 * y_m * share)
+        assert is_closing_in((2.0, -3.0), own, 0.3, [other]) is (share > 0.0)
+        assert is_closing_in((2.0, -3.0), (0.0, 0.0), 0.3, [other]) is (share > 0.0)
+
+
+@pytest.mark.parametrize("late_s", [0.0, 3.0])
+def test_who_crosses_closes_in_where_both_come_to_the_crossing_at_once(late_s: float) -> None:
+    other = robot(0.4, -0.6 - 0.4 * late_s, 0.0, 0.4)
+    assert is_closing_in((0.0, 0.0), (0.4, 0.0), 0.3, [other]) is (late_s == 0.0)
 
 
 @pytest.mark.parametrize(
     "other",
     [
-        robot(NEAR_M + 0.01, 0.0, -0.4, 0.0),
-        robot(1.0, 0.0, -CLOSES_MPS / 2, 0.4),  # passes by
-        robot(1.0, 0.0, 0.0, 0.0),
+        robot(0.3 + RADIUS_M + CLEAR_M + 0.9 * AHEAD_S, 0.0, -0.4, 0.0),  # too far, as yet
+        robot(1.0, 0.0, 0.5, 0.0),  # drives before it, and faster
+        robot(0.3 + RADIUS_M + CLEAR_M + 0.1, 0.0, 0.5, 0.3),
+        robot(1.0, 0.0, 0.4, 0.0),  # as fast: it never comes nearer
         robot(float("nan"), 0.0, -0.4, 0.0),
         robot(1.0, 0.0, float("nan"), 0.0),
         Mover(1, 1.0, 0.0, -0.4, 0.0, WIDE_M),  # a person
     ],
 )
 def test_nobody_else_closes_in(other: Mover) -> None:
-    assert not is_closing_in((0.0, 0.0), [other])
+    assert not is_closing_in((0.0, 0.0), (0.4, 0.0), 0.3, [other])
