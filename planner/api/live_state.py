@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from planner.api.objects import sight_view
 from planner.api.robot import obstacle_view, path_view, robot_view, scan_view
 from planner.api.usage import usage_view
+from planner.loops import keep_going
 from wire import Mode
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ class Feed:
         self._listeners.add(listener)
         if self._task is None or self._task.done():
             self._metered = self._services.budget.changes  # the snapshot tells it so far
-            self._task = asyncio.get_running_loop().create_task(self._run(), name="feed")
+            self._task = asyncio.create_task(keep_going("feed", self._run), name="feed")
         return listener
 
     def leave(self, listener: Listener) -> None:

@@ -11,6 +11,7 @@ import logging
 import time
 from typing import TYPE_CHECKING
 
+from planner.loops import keep_going
 from planner.memory.records import ObjectSighting
 
 if TYPE_CHECKING:
@@ -95,7 +96,8 @@ class SightingRecorder:
         """Begin to write; ``before``: things that an older program remembered, taken in once."""
         offset_s = self._wall() - self._clock()
         await self._recollection.take_over([self._sighting(thing, offset_s) for thing in before])
-        self._task = asyncio.get_running_loop().create_task(self._run(), name="remember sightings")
+        work = keep_going("remember sightings", self._run)
+        self._task = asyncio.create_task(work, name="remember sightings")
 
     async def close(self) -> None:
         """Write the last of it."""

@@ -14,6 +14,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from planner.loops import keep_going
 from planner.outbound import Address, CallFailure
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ class Notifier:
         self._waiting.append(message)
         self._wake.set()
         if self._task is None:
-            self._task = asyncio.create_task(self._run(), name="notify")
+            self._task = asyncio.create_task(keep_going("notify", self._run), name="notify")
 
     async def close(self) -> None:
         """End at once; what was not sent yet is dropped."""

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.templates.owners import read_skill_templates
 from planner.language.templates.skills import with_skills
+from planner.loops import keep_going
 from planner.plan import Entry, Skill, Vocabulary
 from planner.skill_files.problems import SkillProblem
 from planner.skill_files.skill_file import KINDS, check_routine, read_skill
@@ -96,7 +97,8 @@ class SkillFolder:
 
     async def start(self) -> None:
         """Read the skills beside what else begins, and look for changes from now on."""
-        self._looking = asyncio.create_task(self._look_again(), name="look at skills")
+        work = keep_going("look at skills", self._look_again)
+        self._looking = asyncio.create_task(work, name="look at skills")
 
     async def close(self) -> None:
         """Look no more."""
