@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from typing import Any
 
 from planner.brain import OfflineBrain, ThinkRequest
@@ -11,11 +12,12 @@ from planner.language.sentence import parse
 from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import lean_of
 from planner.mission.plan_request import things_of
+from planner.mission.reception import Reception, receive
 from planner.mission.reducer import advance
 from planner.mission.skills import Eyesight
 from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Sight
-from planner.plan import ChangedOrder, Clarify, Code, GoalState, Means, Plan, StepPlan
+from planner.plan import ChangedOrder, Clarify, Code, GoalState, GoTo, Means, Plan, StepPlan
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
 from tests.conftest import ROOT
@@ -37,6 +39,19 @@ def order_under_way(text: str, *steps: Any) -> MissionState:
     book, _ = advance(book, Submitted("g0", text, parse(text).language), NOW_S)
     plan = StepPlan(steps=steps) if steps else plan_of(text)
     return advance(book, Planned("g0", plan), NOW_S)[0]
+
+
+def order_running(text: str, *steps: Any) -> MissionState:
+    """Return the book while the robot is at this order."""
+    book = order_under_way(text, *steps)
+    runs = newest(book).model_copy(update={"state": GoalState.RUNNING})
+    return replace(book, missions={"g0": runs}, running="g0")
+
+
+def drive_under_way(text: str, place: str) -> MissionState:
+    """Return the book of a planner without eyes, this order planned as a drive to a place."""
+    book, _ = advance(MissionState(FACTS), Submitted("g0", text, parse(text).language), NOW_S)
+    return advance(book, Planned("g0", StepPlan(steps=(GoTo(place=place),))), NOW_S)[0]
 
 
 def order_done(text: str, *steps: Any) -> MissionState:
@@ -77,7 +92,20 @@ def plan_of(text: str, changed: ChangedOrder | None = None) -> Plan:
     return asyncio.run(OfflineBrain().think(request)).plan
 
 
-def means(book: MissionState, said: str, order: str) -> bool:
-    """Tell whether a sentence comes to the same steps as an order that leans on nothing."""
+def means(book: MissionState, said: str, order: str | None) -> bool:
+    """Tell whether a sentence comes to an order that leans on nothing; None: changes nothing."""
     changed = changed_by(book, said)
-    return changed is not None and plan_of(said, changed) == plan_of(order)
+    if changed is None:
+        return order is None
+    return order is not None and plan_of(said, changed) == plan_of(order)
+
+
+def steps_after(book: MissionState, said: str) -> tuple[Any, ...]:
+    """Return the steps that a sentence makes of what runs."""
+    changed = changed_by(book, said)
+    return changed.steps if changed is not None else ()
+
+
+def heard(book: MissionState, said: str) -> Reception:
+    """Return what a sentence is to the missions."""
+    return receive(book, parse(said), Submitted("new", said, parse(said).language), NOW_S)
