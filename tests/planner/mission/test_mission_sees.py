@@ -1,15 +1,22 @@
-"""What sights do to a running mission: gazes, legs given up, walks laid anew, and nothing else."""
+"""What sights do to a running mission: gazes, walks, ways back, and points driven to by a yes."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import hypot
 
 import pytest
 
 from planner.mission.activity import Driving, Observing
-from planner.mission.skills.skill_state import FindState
+from planner.mission.events import Cancel, Pause, Reply, Resume, Tick, Told
+from planner.mission.observations import list_observations
+from planner.mission.reducer import asked_about_picture
+from planner.mission.skills import Eyesight, ImageAnswer
+from planner.mission.skills.skill_state import FindState, GoToObjectState
+from planner.mission.state import Mission
 from planner.plan import (
     Code,
+    ComeBack,
     Count,
     Find,
     Follow,
@@ -18,13 +25,24 @@ from planner.plan import (
     GoTo,
     GoToObject,
     Look,
+    ReturnHome,
+    Say,
     Step,
     StepPlan,
     StepState,
 )
-from tests.planner.mission.driving import FAILED, RUNNING, SUCCEEDED
-from tests.planner.mission.fakes import row
+from tests.planner.mission.driving import (
+    CANCELLED,
+    FAILED,
+    PAUSED,
+    RUNNING,
+    SUCCEEDED,
+    standing_still,
+)
+from tests.planner.mission.fakes import FACTS, outcome_of, row
+from tests.planner.mission.lockstep import go
 from tests.planner.mission.seeing import ANNA, CUP, Seeing
+from wire import CameraConfig, Pose2
 
 
 @pytest.fixture
@@ -47,9 +65,8 @@ def test_a_room_whose_way_is_shut_is_passed_over_and_told(seeing: Seeing) -> Non
     seeing.bridge.blocked = True
     seeing.see_until(goal, FAILED)
     mission = seeing.goal(goal)
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.NOT_FOUND
-    assert mission.outcome.message.en == (
+    assert outcome_of(mission).code is Code.NOT_FOUND
+    assert outcome_of(mission).message.en == (
         "I saw no cup. I looked in the hall. I found no way to the kitchen."
     )
     assert mission.steps[0].state is StepState.FAILED
@@ -170,8 +187,7 @@ def test_a_person_without_a_way_to_them_is_watched_and_given_up_in_time(seeing: 
     seeing.see_until(goal, FAILED, limit_s=60.0)
     mission, took_s = seeing.goal(goal), seeing.now_s - began_s
     assert mission.reason == "no_route"
-    assert mission.outcome is not None
-    assert "person" in mission.outcome.message.en
+    assert "person" in outcome_of(mission).message.en
     assert 10.0 < took_s < 60.0
     assert 3 <= len(seeing.routes) <= took_s
     assert len(seeing.disk_entries) <= 2 * took_s
@@ -230,9 +246,8 @@ def test_what_only_one_of_a_kind_can_be_is_not_taken_for_any_of_it(
     mission = seeing.goal(goal)
     assert (mission.state is GoalState.REFUSED) is refused
     if refused:
-        assert mission.outcome is not None
-        assert mission.outcome.code is Code.OBJECT_UNKNOWN
-        said, stands = mission.outcome.message, step.kind == "go_to_object"
+        assert outcome_of(mission).code is Code.OBJECT_UNKNOWN
+        said, stands = outcome_of(mission).message, step.kind == "go_to_object"
         assert "which one" in said.en
         assert ("on, under or near" in said.en) is stands, "who walks has no neighbour"
         assert ("上面、下面或旁边" in said.zh) is stands
@@ -250,3 +265,294 @@ def test_a_question_about_what_these_eyes_do_not_know_is_answered_before_anythin
     seeing.see(0.6)
     assert (seeing.goal(goal).state is GoalState.REFUSED) is refused
     assert (seeing.routes == []) is refused
+
+
+SEEK, KITCHEN = Find(object="cup", place="kitchen"), GoTo(place="kitchen")
+OK, LOST, LEFT_OUT = StepState.SUCCEEDED, StepState.FAILED, StepState.SKIPPED
+
+
+@pytest.fixture
+def away() -> Seeing:
+    world = Seeing()
+    world.open_eyes()
+    world.bridge.pose = Pose2(0.4, -0.3, 0.0)
+    world.run(0.2)
+    return world
+
+
+def give(world: Seeing, *steps: Step) -> str:
+    """Give a goal to a brain that has no second idea."""
+    return world.give(StepPlan(steps=steps))
+
+
+def states(mission: Mission) -> list[StepState]:
+    return [step.state for step in mission.steps]
+
+
+def near(world: Seeing, x_m: float, y_m: float) -> bool:
+    return hypot(world.bridge.pose.x_m - x_m, world.bridge.pose.y_m - y_m) < 0.1
+
+
+def test_nothing_found_is_told_where_the_order_was_given(away: Seeing) -> None:
+    goal = give(away, SEEK, Say(text="here it is"), ComeBack(), Say(text="I found it"))
+    while states(away.goal(goal))[0] is not LOST:
+        away.see(0.2)
+    assert away.bridge.pose.x_m > 2.0
+    assert (away.goal(goal).state, away.goal(goal).replans) == (RUNNING, 1)
+    away.see_until(goal, FAILED)
+    mission = away.goal(goal)
+    assert near(away, 0.4, -0.3)
+    assert states(mission) == [LOST, LEFT_OUT, OK, LEFT_OUT]
+    assert (mission.reason, away.said) == ("not_found", [])
+    assert outcome_of(mission).code is Code.NOT_FOUND
+    assert outcome_of(mission).message.en == (
+        "I saw no cup. I looked in the kitchen. Arrived: where you gave the order. "
+        "Not done: saying “here it is”, saying “I found it”."
+    )
+    assert "没有看到杯子" in outcome_of(mission).message.zh
+    assert "我到了：下达指令的地方。" in outcome_of(mission).message.zh
+    assert outcome_of(mission).message.zh.endswith("没有做：说“here it is”、说“I found it”。")
+    reached = outcome_of(mission).reached
+    assert reached is not None
+    assert reached.room == "hall"
+
+
+@pytest.mark.parametrize(
+    ("steps", "after", "at"),
+    [
+        ((SEEK, KITCHEN, ReturnHome()), [LOST, LEFT_OUT, OK], (0.0, 0.5)),
+        ((SEEK, ComeBack(), ReturnHome()), [LOST, OK, LEFT_OUT], (0.4, -0.3)),
+    ],
+)
+def test_the_first_way_back_is_driven_and_nothing_else(
+    away: Seeing, steps: tuple[Step, ...], after: list[StepState], at: tuple[float, float]
+) -> None:
+    goal = give(away, *steps)
+    away.see_until(goal, FAILED)
+    assert (states(away.goal(goal)), near(away, *at)) == (after, True)
+
+
+def test_who_lost_a_person_comes_back(away: Seeing) -> None:
+    away.things = (ANNA,)
+    goal = give(away, Follow(object="me"), ComeBack())
+    away.see(4.0)
+    assert not near(away, 0.4, -0.3)
+    away.things = ()
+    away.see_until(goal, FAILED)
+    outcome = outcome_of(away.goal(goal))
+    assert (outcome.code, near(away, 0.4, -0.3)) == (Code.LOST_PERSON, True)
+
+
+@pytest.mark.parametrize(("why", "step"), [("camera_silent", SEEK), ("no_route", KITCHEN)])
+def test_any_other_failure_leaves_the_robot_where_it_stands(
+    away: Seeing, why: str, step: Step
+) -> None:
+    goal = give(away, GoTo(place="dock"), step, ComeBack())
+    while not near(away, 0.0, 0.5):
+        away.see(0.2)
+    if why == "no_route":
+        away.way = lambda _: why
+    else:
+        away.blind = why
+    away.see_until(goal, FAILED)
+    mission = away.goal(goal)
+    assert (mission.reason, states(mission)) == (why, [OK, LOST, LEFT_OUT])
+    assert near(away, 0.0, 0.5)
+
+
+def test_a_way_back_that_is_shut_is_told_after_what_was_looked_for(away: Seeing) -> None:
+    goal = give(away, SEEK, ComeBack(), ReturnHome())
+    while not away.goal(goal).returning:
+        away.see(0.2)
+    away.way = lambda _: "no_route"
+    away.see_until(goal, FAILED)
+    mission = away.goal(goal)
+    assert states(mission) == [LOST, LOST, LEFT_OUT]
+    assert (mission.reason, mission.steps[1].reason) == ("not_found", "no_route")
+    assert outcome_of(mission).code is Code.NOT_FOUND
+    assert outcome_of(mission).message.en.startswith("I saw no cup.")
+    assert outcome_of(mission).message.en.endswith(
+        "I found no way to where you gave the order. Not done: going to the dock."
+    )
+
+
+@pytest.mark.parametrize("crash", [False, True])
+def test_the_way_back_keeps_its_place_over_a_pause_and_a_crash(away: Seeing, crash: bool) -> None:
+    goal = give(away, SEEK, Say(text="never"), ComeBack())
+    while not away.goal(goal).returning:
+        away.see(0.2)
+    away.see(1.0)
+    world = away.restart() if crash else away
+    if not crash:
+        world.event(Pause(goal))
+    world.run(0.2)
+    assert world.goal(goal).state is PAUSED
+    world.event(Resume(goal))
+    world.act()
+    mission = world.run_until(goal, FAILED)
+    assert (states(mission), world.said) == ([LOST, LEFT_OUT, OK], [])
+    assert hypot(world.bridge.pose.x_m - 0.4, world.bridge.pose.y_m + 0.3) < 0.1
+    assert outcome_of(mission).code is Code.NOT_FOUND
+    assert FACTS.targets["kitchen"].name.en in outcome_of(mission).message.en
+
+
+ASKS = GoalState.NEEDS_CLARIFICATION
+PLAN = StepPlan(steps=(GoToObject(object="guitar"), GoTo(place="dock")))
+AT = (4.0, 0.5, 0.4)
+TOLD = "I think “guitar” is 4.0 m away, straight ahead (in the kitchen). Shall I drive there?"
+
+
+def sees(world: Seeing) -> Seeing:
+    eyes = Eyesight(CameraConfig(), ("cup",), model=True)
+    world.engine.book = replace(world.book, eyes=eyes)
+    world.run(0.2)
+    return world
+
+
+def pointing(world: Seeing, *, written: bool = True) -> str:
+    """Give a goal to what only a model knows, and let it point; then the disk is slow, or not."""
+    goal = world.give(PLAN)
+    while (ticket := asked_about_picture(world.book)) is None:
+        world.see(0.2)
+    world.disk = written
+    world.event(Told(goal, ticket, ImageAnswer(at=AT)))
+    return goal
+
+
+def again(world: Seeing) -> Seeing:
+    """Return a new planner on the same disk, its eyes open."""
+    after = world.restart()
+    seeing = Seeing(bridge=after.bridge, now_s=after.now_s, plans=after.plans, planner_id="p2")
+    seeing.engine, seeing.disk_entries = after.engine, [*world.disk_entries, *after.disk_entries]
+    return sees(seeing)
+
+
+@pytest.fixture
+def world() -> Seeing:
+    return sees(Seeing())
+
+
+def test_it_stands_and_asks_and_drives_upon_a_yes(world: Seeing) -> None:
+    goal = pointing(world)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason, world.said) == (ASKS, "asked", [TOLD])
+    assert (outcome_of(mission).code, outcome_of(mission).message.en) == (Code.ASKED, TOLD)
+    assert standing_still(world, 30.0)
+    world.event(Reply(goal, "Yes, please."))
+    world.see_until(goal, SUCCEEDED)
+    step = world.goal(goal).steps[0]
+    assert (step.state, step.answer) == (StepState.SUCCEEDED, "Yes, please.")
+    assert step.reached is not None
+    assert step.reached.x_m == pytest.approx(3.2, abs=0.15)
+    assert world.said == [TOLD]
+    seen = list_observations(world.book.facts, world.goal(goal))[0]
+    assert (seen.step, seen.result) == ("go_to_object", "succeeded")
+
+
+@pytest.mark.parametrize("replies", [("no",), ("what?", "hm"), ("what?", "不要")])
+def test_without_a_plain_yes_it_ends_where_it_stands(
+    world: Seeing, replies: tuple[str, ...]
+) -> None:
+    goal = pointing(world)
+    for reply in replies:
+        assert world.goal(goal).state is ASKS
+        world.event(Reply(goal, reply))
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "point_declined")
+    assert outcome_of(mission).code is Code.POINT_REFUSED
+    assert [s.state for s in mission.steps] == [StepState.FAILED, StepState.SKIPPED]
+    assert standing_still(world)
+    assert len(world.said) == len(replies), "a second question is said, too"
+
+
+def test_nobody_answers_and_nothing_moves(world: Seeing) -> None:
+    goal = pointing(world)
+    world.run(world.book.rules.answer_s + 1.0, every_s=0.25)
+    world.event(Tick())
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "no_answer")
+    assert TOLD in outcome_of(mission).message.en
+    assert standing_still(world)
+
+
+@pytest.mark.parametrize("written", [True, False])
+def test_a_crash_neither_drives_nor_loses_the_question(written: bool) -> None:
+    before = sees(Seeing())
+    goal = pointing(before, written=written)
+    after = again(before)
+    after.act()
+    if not written:
+        assert (after.goal(goal).state, after.goal(goal).reason) == (PAUSED, "planner_restarted")
+        after.event(Resume(goal))
+    after.see(3.0)
+    mission = after.goal(goal)
+    assert (mission.state, after.said) == (ASKS, []), "perhaps said before"
+    assert isinstance(mission.skill_state, GoToObjectState)
+    assert mission.skill_state.pointed == AT
+    if written:
+        assert outcome_of(mission).message.en == TOLD
+    assert standing_still(after)
+    after.event(Reply(goal, "yes"))
+    after.see_until(goal, SUCCEEDED)
+
+
+def test_a_yes_given_before_a_crash_waits_for_a_person_and_asks_nothing_twice(
+    world: Seeing,
+) -> None:
+    goal = pointing(world)
+    world.event(Reply(goal, "yes"))
+    world.see(1.0)
+    after = again(world)
+    after.act()
+    assert after.goal(goal).state is PAUSED
+    assert standing_still(after, 5.0)
+    after.event(Resume(goal))
+    after.see_until(goal, SUCCEEDED)
+    assert after.said == []
+
+
+def test_a_yes_to_a_point_of_another_map_is_none(world: Seeing) -> None:
+    world.engine.book = replace(world.book, facts=replace(world.book.facts, map_id="m1"))
+    goal = pointing(world)
+    world.event(Reply(goal, "yes"))
+    after = again(world)
+    after.act()
+    after.event(Resume(goal))
+    while (ticket := asked_about_picture(after.book)) is None:
+        after.see(0.2)
+    assert after.goal(goal).steps[0].answer == "yes"
+    after.event(Told(goal, ticket, ImageAnswer(at=(2.0, 0.0, 0.4))))
+    assert (after.goal(goal).state, after.goal(goal).steps[0].answer) == (ASKS, None)
+    assert standing_still(after)
+
+
+def test_a_pause_before_the_question_was_said_keeps_it(world: Seeing) -> None:
+    goal = pointing(world, written=False)
+    world.event(Pause(goal))
+    world.disk = True
+    world.sync()
+    assert world.goal(goal).state is PAUSED
+    assert standing_still(world)
+    world.event(Resume(goal))
+    world.see(1.0)
+    assert world.goal(goal).state is ASKS
+    assert standing_still(world)
+
+
+def test_other_goals_drive_meanwhile_and_the_point_stays(world: Seeing) -> None:
+    goal = pointing(world)
+    other = world.give(go("kitchen"))
+    world.run_until(other, SUCCEEDED)
+    assert world.goal(goal).state is ASKS
+    world.event(Reply(goal, "好的"))
+    world.see_until(goal, SUCCEEDED)
+    step = world.goal(goal).steps[0]
+    assert step.reached is not None
+    assert step.reached.x_m == pytest.approx(3.2, abs=0.9), "about the same point of the map"
+
+
+def test_the_question_can_be_cancelled(world: Seeing) -> None:
+    goal = pointing(world)
+    world.event(Cancel(goal))
+    assert world.goal(goal).state is CANCELLED
+    assert standing_still(world)

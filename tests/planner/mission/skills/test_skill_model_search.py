@@ -20,7 +20,7 @@ from planner.mission.skills.skill_state import DirectionSeen, FindState
 from planner.perception.snapshot import LookSnapshot, Sight
 from planner.plan import Code, StepRole
 from tests.planner.mission.fakes import FACTS
-from tests.planner.mission.skills.scenes import scene
+from tests.planner.mission.skills.scenes import said_of, scene
 from wire import CameraConfig, Pose2
 
 NOW_S = 100.0
@@ -129,8 +129,7 @@ def test_a_no_needs_every_direction_of_every_room() -> None:
     assert len(told.asked) == EYES.views * len(rooms)
     assert told.kind == "Fail"
     assert (told.end.code, told.end.reason) == (Code.NOT_FOUND, "not_found")
-    assert told.end.said is not None
-    assert told.end.said.en.startswith(
+    assert said_of(told.end).en.startswith(
         "I saw no umbrella stand. None of the pictures shows it. I looked"
     )
     when = walk("find", lambda *_: NO, role=StepRole.WHEN)
@@ -240,6 +239,10 @@ def test_a_count_is_never_below_what_one_picture_shows(seen: list[DirectionSeen]
     assert low >= max((each.middle for each in seen if each.sure >= 0.5), default=0)
 
 
+WHOLE = {kind: walk(kind, lambda *_: NO).goals for kind in ("find", "count")}
+"""The ways of a search that sees nothing."""
+
+
 @given(st.lists(st.tuples(st.booleans(), st.integers(0, 50), st.floats(0, 1)), max_size=30))
 def test_no_answer_chooses_where_to_drive(answers: list[tuple[bool, int, float]]) -> None:
     """Whatever a model says, the ways are a beginning of those of a model that always says no."""
@@ -252,8 +255,8 @@ def test_no_answer_chooses_where_to_drive(answers: list[tuple[bool, int, float]]
             return ImageAnswer(failure="bad_plan", cost=PAID)
         return ImageAnswer(counts=(count, 0, 0), sure=sure, cost=PAID)
 
-    for kind in ("find", "count"):
-        whole, told = walk(kind, lambda *_: NO).goals, walk(kind, model).goals
+    for kind, whole in WHOLE.items():
+        told = walk(kind, model).goals
         assert told == whole[: len(told)]
 
 
