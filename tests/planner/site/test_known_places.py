@@ -378,12 +378,19 @@ def box(west_m: float, south_m: float, east_m: float, north_m: float) -> MarksFi
     return MarksFile(version=1, map_id=SITE.map_id, keep_outs=(corners,))
 
 
-@given(st.floats(0.05, 0.5), st.floats(0.05, 0.8), st.floats(0.05, 0.8), st.floats(0.05, 0.5))
-def test_the_way_out_of_marks_ends_on_free_floor_outside_of_them(
-    west_m: float, south_m: float, east_m: float, north_m: float
-) -> None:
+@pytest.fixture(scope="module")
+def standing() -> KnownPlaces:
+    """Return places that are only asked: nothing is taught or marked."""
     kept = KnownPlaces(SITE)
     kept.use(RobotSurvey(Bridge(), StraightRouter()))
+    return kept
+
+
+@given(st.floats(0.05, 0.5), st.floats(0.05, 0.8), st.floats(0.05, 0.8), st.floats(0.05, 0.5))
+def test_the_way_out_of_marks_ends_on_free_floor_outside_of_them(
+    standing: KnownPlaces, west_m: float, south_m: float, east_m: float, north_m: float
+) -> None:
+    kept = standing
     marks = box(HERE.x_m - west_m, HERE.y_m - south_m, HERE.x_m + east_m, HERE.y_m + north_m)
     out = exit_of(kept, marks)
     marked = kept.drawn.site_with(marks)
