@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 from planner.brain import OfflineBrain, ThinkRequest
 from planner.language.catalogue import say
@@ -29,6 +29,8 @@ NAMES = FACTS.names
 NOW_S = 1000.0
 _CLASSES = ("person", "cup", "bottle", "chair", "backpack", "book", "ball", "cat")
 _EYES = Eyesight(CameraConfig(), _CLASSES)
+Before = TypeVar("Before")
+"""What a sentence is said after: a book, or the last step of one."""
 INCOMPLETE = Clarify(code=Code.INCOMPLETE, question=say("question.yes_or_no"))
 _MEANS = Means(camera=True, detector=True)
 
@@ -71,6 +73,13 @@ def order_asked_about(text: str, asks: Clarify = INCOMPLETE) -> MissionState:
 def newest(book: MissionState) -> Mission:
     """Return the newest order."""
     return max(book.missions.values(), key=lambda m: m.order)
+
+
+def each(
+    before: Before, order: str | None, *sayings: str
+) -> tuple[tuple[Before, str, str | None], ...]:
+    """Return rows of a table in which all these sentences come to one order."""
+    return tuple((before, said, order) for said in sayings)
 
 
 def changed_by(book: MissionState, said: str, later_s: float = 0.0) -> ChangedOrder | None:

@@ -31,7 +31,7 @@ from tests.planner.brain.conftest import HOME
 from tests.planner.mission.driving import SUCCEEDED
 from tests.planner.mission.live import KITCHEN, Starter
 from tests.planner.mission.lockstep import go
-from tests.planner.mission.rethinking import Rethinking
+from tests.planner.mission.rethinking import given, rethinking
 
 ASKS = GoalState.NEEDS_CLARIFICATION
 
@@ -42,11 +42,8 @@ def which(text: str, *options: str) -> Clarify:
 
 
 def test_every_round_is_kept_and_told_in_later_thoughts_too() -> None:
-    shut = go("kitchen")
-    world = Rethinking(thoughts=[which("Which room?"), which("Which side?"), shut, shut])
-    world.way = lambda _: "no_route"
-    world.run(0.2)
-    goal = world.give(None)
+    asks, drive = (which("Which room?"), which("Which side?")), go("kitchen")
+    world, goal = given(*asks, drive, drive, shut=True)
     world.event(Reply(goal, "the one with the bed"))
     world.event(Reply(goal, "the left"))
     rounds = (
@@ -59,9 +56,7 @@ def test_every_round_is_kept_and_told_in_later_thoughts_too() -> None:
 
 
 def test_a_taken_offer_is_its_order_with_the_question_beside_it() -> None:
-    world = Rethinking(thoughts=[which("To the hall, then?", "go to the hall"), go("hall")])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(which("To the hall, then?", "go to the hall"), go("hall"))
     world.event(Reply(goal, "yes please"))
     assert world.asked[1].text == "go to the hall"
     assert world.asked[1].exchanges == (
@@ -71,9 +66,7 @@ def test_a_taken_offer_is_its_order_with_the_question_beside_it() -> None:
 
 
 def test_what_an_older_program_wrote_keeps_its_place() -> None:
-    world = Rethinking(thoughts=[which("One?"), which("Two?"), None])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(which("One?"), which("Two?"), None)
     world.event(Reply(goal, "first"))
     mission = world.goal(goal).model_copy(update={"questions": ()})
     world.engine.book.missions[goal] = mission
@@ -100,9 +93,7 @@ def test_an_answer_that_names_one_of_the_grammars_offers_is_that_order() -> None
         (TAG, "go to the hall"),
         (BrainTag(name="model", version="1"), "the hall, please"),
     ):
-        world = Rethinking(thoughts=[which("Which one?", *offers), go("hall")])
-        world.run(0.2)
-        goal = world.give(None)
+        world, goal = given(which("Which one?", *offers), go("hall"))
         mission = world.goal(goal).model_copy(update={"brain": brain})
         world.engine.book.missions[goal] = mission
         world.event(Reply(goal, "the hall, please"))
@@ -151,26 +142,20 @@ LAYS = Clarify(code=Code.NOT_UNDERSTOOD, question=say_same("To the hall?"), opti
 def test_a_plan_laid_before_a_person_is_done_as_it_stands_by_a_yes_or_its_own_words(
     answer: str,
 ) -> None:
-    world = Rethinking(thoughts=[LAYS])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(LAYS)
     world.event(Reply(goal, answer))
     world.run_until(goal, SUCCEEDED)
     assert len(world.asked) == 1  # nobody reads the words of the button
 
 
 def test_a_plan_laid_before_a_person_is_dropped_by_a_no() -> None:
-    world = Rethinking(thoughts=[LAYS])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(LAYS)
     world.event(Reply(goal, "no"))
     assert world.book.missions[goal].state is GoalState.CANCELLED
 
 
 def test_a_plan_laid_before_a_person_is_thought_about_after_any_other_answer() -> None:
-    world = Rethinking(thoughts=[LAYS, go("kitchen")])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(LAYS, go("kitchen"))
     world.event(Reply(goal, "the one with the stove"))
     assert [a.text for a in world.asked][1:] == ["the one with the stove"]
 
@@ -179,8 +164,7 @@ def test_a_plan_laid_before_a_person_is_thought_about_after_any_other_answer() -
 def test_what_is_laid_in_place_of_what_runs_ends_that_by_a_yes_alone(role: PlanRole) -> None:
     plan = StepPlan(steps=(GoTo(place="hall"),), does=role)
     laid = LAYS.model_copy(update={"options": (LAID.model_copy(update={"plan": plan}),)})
-    world = Rethinking(thoughts=[go("kitchen"), laid])
-    world.run(0.2)
+    world = rethinking(go("kitchen"), laid)
     running, goal = world.give(None), world.give(None)
     assert world.goal(running).state is GoalState.RUNNING
     world.event(Reply(goal, "yes"))
@@ -190,8 +174,7 @@ def test_what_is_laid_in_place_of_what_runs_ends_that_by_a_yes_alone(role: PlanR
 
 
 def test_a_thought_is_told_the_order_before_it_and_never_itself() -> None:
-    world = Rethinking(thoughts=[go("kitchen"), which("Which?"), go("hall")])
-    world.run(0.2)
+    world = rethinking(go("kitchen"), which("Which?"), go("hall"))
     first, second = world.give(None), world.give(None)
     world.event(Reply(second, "the hall"))
     assert world.asked[0].newest is None
@@ -203,9 +186,7 @@ def test_a_thought_is_told_the_order_before_it_and_never_itself() -> None:
 
 def test_what_was_answered_stays_beside_its_question_and_survives_the_journal() -> None:
     ask = StepPlan(steps=(Ask(question="Shall I go on?"),))
-    world = Rethinking(thoughts=[which("Which room?"), ask])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(which("Which room?"), ask)
     world.event(Reply(goal, "the one with the bed", "page"))
     world.run(0.2)
     world.event(Reply(goal, "yes", "voice"))
@@ -220,8 +201,7 @@ def test_what_was_answered_stays_beside_its_question_and_survives_the_journal() 
 
 
 def test_a_yes_by_a_button_has_no_words_and_answers_are_bounded() -> None:
-    world = Rethinking(thoughts=[go("kitchen")])
-    world.run(0.2)
+    world = rethinking(go("kitchen"))
     goal = world.give(None, confirm=True)
     for _ in range(2 * MAX_ANSWERS):
         world.event(Reply(goal, "perhaps", "cli"))
@@ -244,9 +224,7 @@ async def test_a_stopped_goal_tells_who_stopped_it_until_it_goes_on(start: Start
 
 
 def test_a_sentence_that_stops_tells_its_door_too() -> None:
-    world = Rethinking(thoughts=[go("kitchen")])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(go("kitchen"))
     world.event(Submitted("s", "stop", Language.EN, stop=True, by="voice"))
     assert world.goal(goal).stopped_by == "voice"
     world.event(Resume(goal))

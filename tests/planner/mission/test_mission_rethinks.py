@@ -43,19 +43,12 @@ from planner.plan import (
 from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.lockstep import Together, go
-from tests.planner.mission.rethinking import Rethinking
+from tests.planner.mission.rethinking import SHUT, Rethinking, given, rethinking
 from wire import CameraConfig
 
-SHUT = "no_route"
 DECIDE = Decide(question="where to?")
 SAYS = Bilingual(en="It is gone.", zh="不见了。")
 DOWN = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
-
-
-def rethinking(*thoughts: Any, shut: bool = False) -> Rethinking:
-    world = Rethinking(thoughts=list(thoughts), way=lambda _: SHUT if shut else None)
-    world.run(0.2)
-    return world
 
 
 def plan(*steps: Any) -> StepPlan:
@@ -64,8 +57,7 @@ def plan(*steps: Any) -> StepPlan:
 
 def test_new_steps_replace_the_rest_and_know_what_was_heard() -> None:
     first = plan(Ask(question="Where to?"), DECIDE, Say(text="never said"))
-    world = rethinking(first, go("kitchen"))
-    goal = world.give(None)
+    world, goal = given(first, go("kitchen"))
     world.event(Reply(goal, "to the kitchen"))
     done = world.run_until(goal, SUCCEEDED)
     assert [s.kind for s in done.steps] == ["ask", "decide", "go_to"]
@@ -92,8 +84,7 @@ def test_a_failed_step_is_thought_about_with_what_went_wrong() -> None:
 
 def test_the_same_steps_again_end_with_the_first_failure_after_one_thought() -> None:
     """So it goes with the offline brain, whose answer to a sentence is always the same."""
-    world = rethinking(go("kitchen"), go("kitchen"), go("kitchen"), shut=True)
-    goal = world.give(None)
+    world, goal = given(go("kitchen"), go("kitchen"), go("kitchen"), shut=True)
     mission = world.goal(goal)
     assert (mission.state, mission.reason, len(world.asked)) == (FAILED, "no_route", 2)
     assert outcome_of(mission).code is Code.NO_ROUTE
@@ -101,8 +92,7 @@ def test_the_same_steps_again_end_with_the_first_failure_after_one_thought() -> 
 
 def test_no_more_new_plans_than_the_rules_allow() -> None:
     thoughts = [plan(Say(text=f"try {i}"), GoTo(place="kitchen")) for i in range(9)]
-    world = rethinking(*thoughts, shut=True)
-    goal = world.give(None)
+    world, goal = given(*thoughts, shut=True)
     assert world.goal(goal).state is FAILED
     assert len(world.asked) == 1 + world.book.rules.replans
     assert world.said == ["try 0", "try 1", "try 2"]
@@ -110,16 +100,14 @@ def test_no_more_new_plans_than_the_rules_allow() -> None:
 
 def test_no_goal_decides_for_ever() -> None:
     thoughts = [plan(Say(text=f"hm {i}"), DECIDE) for i in range(9)]
-    world = rethinking(*thoughts)
-    goal = world.give(None)
+    world, goal = given(*thoughts)
     mission = world.goal(goal)
     assert (mission.state, mission.reason) == (FAILED, "thoughts")
     assert len(world.asked) == 1 + world.book.rules.decides
 
 
 def test_a_thought_that_is_paused_and_resumed_counts_once() -> None:
-    world = rethinking(plan(DECIDE))
-    goal = world.give(None)
+    world, goal = given(plan(DECIDE))
     for _ in range(world.book.rules.decides + 1):
         world.event(Pause(goal))
         world.event(Resume(goal))
@@ -159,8 +147,7 @@ def test_an_answer_to_a_failure_is_told_behind_it() -> None:
 
 def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
     question = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which dock?", zh="哪个？"))
-    world = rethinking(plan(DECIDE), question, go("dock"))
-    goal = world.give(None)
+    world, goal = given(plan(DECIDE), question, go("dock"))
     assert world.goal(goal).state is GoalState.NEEDS_CLARIFICATION
     world.event(Reply(goal, "the left one"))
     world.run_until(goal, SUCCEEDED)
@@ -237,8 +224,7 @@ def test_what_the_plan_looked_for_before_is_looked_for_without_a_yes(
 def test_a_thinking_brain_is_interrupted_at_once_and_its_answer_changes_nothing(
     order: Any, state: GoalState
 ) -> None:
-    world = rethinking(plan(DECIDE))
-    goal = world.give(None)
+    world, goal = given(plan(DECIDE))
     assert world.goal(goal).state is RUNNING
     world.event(order(goal))
     assert (world.goal(goal).state, world.dropped) == (state, [goal])
@@ -252,8 +238,7 @@ def test_a_thinking_brain_is_interrupted_at_once_and_its_answer_changes_nothing(
 
 
 def test_a_crash_while_it_thinks_about_a_failure_thinks_on_when_a_person_says_so() -> None:
-    world = rethinking(go("kitchen"), shut=True)
-    goal = world.give(None)
+    world, goal = given(go("kitchen"), shut=True)
     assert world.goal(goal).replans == 1
     after = world.restart()
     assert (after.goal(goal).state, after.goal(goal).reason) == (PAUSED, "planner_restarted")
@@ -325,8 +310,7 @@ def test_after_a_drive_that_failed_nobody_has_arrived() -> None:
 
 
 def test_who_has_been_to_a_place_and_finds_no_way_back_has_not_arrived() -> None:
-    world = rethinking(go("kitchen", "hall", "kitchen"), plan(DINNER))
-    goal = world.give(None)
+    world, goal = given(go("kitchen", "hall", "kitchen"), plan(DINNER))
     while world.goal(goal).step < 1:
         world.run()
     shut(world, "kitchen")
@@ -337,8 +321,7 @@ def test_who_has_been_to_a_place_and_finds_no_way_back_has_not_arrived() -> None
 
 
 def test_a_drive_that_was_never_begun_says_nothing_about_an_arrival() -> None:
-    world = rethinking(go("hall", "dock", "kitchen", "dock"), AnswerPlan(text=say_same("no")))
-    goal = world.give(None)
+    world, goal = given(go("hall", "dock", "kitchen", "dock"), AnswerPlan(text=say_same("no")))
     shut(world, "kitchen")
     assert told(world, goal, state=FAILED) == (
         "Arrived: hall, then dock. I found no way to the kitchen. Not done: going to the dock."
@@ -354,8 +337,7 @@ def test_another_place_that_was_gone_to_instead_is_told_so() -> None:
 
 def test_what_was_answered_is_told_whatever_a_brain_says_after_it() -> None:
     first = plan(GoTo(place="kitchen"), Ask(question="tea?"), Decide(question="what then?"))
-    world = rethinking(first, AnswerPlan(text=say_same("I was told.")))
-    goal = world.give(None)
+    world, goal = given(first, AnswerPlan(text=say_same("I was told.")))
     while not world.goal(goal).outcome:
         world.run()
     world.event(Reply(goal, "green tea"))
@@ -386,8 +368,7 @@ def test_a_patrol_that_ends_on_its_way_names_the_stops_it_made() -> None:
 
 
 def test_a_cancelled_goal_tells_what_it_said_before() -> None:
-    world = rethinking(plan(DINNER, GoTo(place="kitchen")))
-    goal = world.give(None)
+    world, goal = given(plan(DINNER, GoTo(place="kitchen")))
     while not world.goal(goal).metres and world.bridge.pose.x_m < 1.0:
         world.run()
     world.event(Cancel(goal))
@@ -396,8 +377,7 @@ def test_a_cancelled_goal_tells_what_it_said_before() -> None:
 
 def test_thoughts_that_are_used_up_are_no_distance_and_no_time() -> None:
     again = [plan(Wait(seconds=0.1 * n), Decide(question="?")) for n in range(1, 6)]
-    world = rethinking(*again)
-    goal = world.give(None)
+    world, goal = given(*again)
     en = told(world, goal, state=FAILED, code=Code.OUT_OF_BUDGET)
     assert world.goal(goal).reason == "thoughts"
     assert en.endswith("I have used up what I may for this: 3 thoughts under way.")
@@ -406,8 +386,7 @@ def test_thoughts_that_are_used_up_are_no_distance_and_no_time() -> None:
 
 def test_the_same_steps_again_are_named_in_both_languages() -> None:
     again = plan(Wait(seconds=0.1), Decide(question="?"))
-    world = rethinking(again, again)
-    goal = world.give(None)
+    world, goal = given(again, again)
     en = told(world, goal, state=FAILED, code=Code.BAD_PLAN)
     outcome = outcome_of(world.goal(goal))
     assert SAME_AGAIN.en in en

@@ -114,33 +114,29 @@ KITCHEN = replace(room("kitchen", 8.0), name=Bilingual(en="kitchen", zh="厨房"
 SOFA = Target("sofa", False, Bilingual(en="sofa", zh="沙发"), Pose2(4.0, 0.5, 0.0))
 FURNISHED = SiteView({t.id: t for t in (KITCHEN, SOFA, FRIDGE)}, home="sofa")
 CUP, TABLE, CHAIR = WantedObject("cup"), WantedObject("table"), WantedObject("chair")
+RED_CUP, BLUE_CHAIR = WantedObject("cup", "red"), WantedObject("chair", "blue")
+PERSON, SOFA_KIND = WantedObject("person"), WantedObject("sofa")
 
 
 @pytest.mark.parametrize(
     ("question", "sought"),
     [
         ("is the cup on the table?", ObjectQuery(CUP, ON, TABLE)),
-        (
-            "Is there a red cup on top of the table now?",
-            ObjectQuery(WantedObject("cup", "red"), ON, TABLE),
-        ),
-        (
-            "do you see a cup beneath the blue chair",
-            ObjectQuery(CUP, UNDER, WantedObject("chair", "blue")),
-        ),
+        ("Is there a red cup on top of the table now?", ObjectQuery(RED_CUP, ON, TABLE)),
+        ("do you see a cup beneath the blue chair", ObjectQuery(CUP, UNDER, BLUE_CHAIR)),
         ("check if the cup is next to the table", ObjectQuery(CUP, NEAR, TABLE)),
-        ("is anybody sitting on the chair", ObjectQuery(WantedObject("person"), ON, CHAIR)),
+        ("is anybody sitting on the chair", ObjectQuery(PERSON, ON, CHAIR)),
         ("what is on the table?", ObjectQuery(None, ON, TABLE)),
         ("who is on the chair", ObjectQuery(None, ON, CHAIR)),
         ("is there anything under the chair", ObjectQuery(None, UNDER, CHAIR)),
         ("is there a cup on the floor", ObjectQuery(CUP, ON, FLOOR)),
         ("桌子上有杯子吗", ObjectQuery(CUP, ON, TABLE)),
-        ("看看桌上有没有红色的杯子", ObjectQuery(WantedObject("cup", "red"), ON, TABLE)),
+        ("看看桌上有没有红色的杯子", ObjectQuery(RED_CUP, ON, TABLE)),
         ("杯子还在桌子上吗", ObjectQuery(CUP, ON, TABLE)),
         ("杯子是不是在椅子下面", ObjectQuery(CUP, UNDER, CHAIR)),
         ("看到椅子旁边的杯子了吗", ObjectQuery(CUP, NEAR, CHAIR)),
-        ("有人在椅子上吗", ObjectQuery(WantedObject("person"), ON, CHAIR)),
-        ("椅子上坐着人吗", ObjectQuery(WantedObject("person"), ON, CHAIR)),
+        ("有人在椅子上吗", ObjectQuery(PERSON, ON, CHAIR)),
+        ("椅子上坐着人吗", ObjectQuery(PERSON, ON, CHAIR)),
         ("桌子上都有什么东西", ObjectQuery(None, ON, TABLE)),
         ("谁坐在椅子上", ObjectQuery(None, ON, CHAIR)),
         ("地上有没有杯子", ObjectQuery(CUP, ON, FLOOR)),
@@ -179,9 +175,9 @@ def test_what_no_eye_here_can_judge_keeps_its_words(question: str, unclear: str)
         ("厨房的桌子上有没有杯子", "kitchen", ObjectQuery(CUP, ON, TABLE)),
         ("杯子在厨房的桌子上吗", "kitchen", ObjectQuery(CUP, ON, TABLE)),
         ("is there a cup near the sofa", "sofa", ObjectQuery(CUP)),
-        ("is there a cup on the sofa", "sofa", ObjectQuery(CUP, ON, WantedObject("sofa"))),
+        ("is there a cup on the sofa", "sofa", ObjectQuery(CUP, ON, SOFA_KIND)),
         ("沙发旁边有杯子吗", "sofa", ObjectQuery(CUP)),
-        ("沙发底下有没有杯子", "sofa", ObjectQuery(CUP, UNDER, WantedObject("sofa"))),
+        ("沙发底下有没有杯子", "sofa", ObjectQuery(CUP, UNDER, SOFA_KIND)),
         ("is there a cup in the fridge", "fridge", ObjectQuery(CUP, unclear="in the fridge")),
         ("is there a cup in front of you", None, ObjectQuery(CUP)),
         ("is there a cup in this room", None, ObjectQuery(CUP)),
@@ -200,7 +196,7 @@ def test_a_place_to_look_in_is_no_neighbour(
 @pytest.mark.parametrize("name", ["Dad", "Anna", "my mum", "奶奶", "爸爸"])
 def test_a_name_is_searched_for_as_anybody(name: str) -> None:
     """Nobody is recognised: who is found is told as a person, and is never followed by a name."""
-    assert anybody_for(name, KINDS) == WantedObject("person")
+    assert anybody_for(name, KINDS) == PERSON
     assert anybody_for(name, ("cup",)) is None
     assert anybody_for(f"{name} cup", KINDS) is None
 

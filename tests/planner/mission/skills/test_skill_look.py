@@ -21,11 +21,11 @@ from planner.mission.skills.skill_state import (
     PointingStage,
 )
 from planner.mission.skills.state_base import SkillStateBase
-from planner.perception.snapshot import LookSnapshot, Sight, Thing
+from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual, Code, StepRole, say_same
 from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import FACTS
-from tests.planner.mission.skills.looking import NOW_S, at
+from tests.planner.mission.skills.looking import NOW_S, at, sight
 from tests.planner.mission.skills.scenes import said_of, scene
 from wire import CameraConfig, Pose2
 
@@ -39,8 +39,7 @@ BEFORE = {"seen_s": NOW_S - 60.0}
 
 
 def asked(question: str, *things: Thing, **more: Any) -> Any:
-    sight = Sight(LookSnapshot(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
-    fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
+    fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight(*things), "now_s": NOW_S}
     fields |= {"state": LookState(here=(0.0, 0.0), stage=LookStage.GAZED), "spent_s": 5.0}
     step = {"text": question, "place": more.pop("place", None), "role": more.pop("role", None)}
     return act_of(scene("look", step=step, **{**fields, **more}))

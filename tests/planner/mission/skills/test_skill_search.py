@@ -43,10 +43,10 @@ from planner.mission.skills.skill_state import CountState, FindState, GoToObject
 from planner.mission.skills.spatial_relations import stands
 from planner.mission.skills.state_base import SkillStateBase
 from planner.mission.skills.viewpoints import THINGS, in_order, likely_rooms
-from planner.perception.snapshot import LookSnapshot, Sight, Thing
+from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual, Code, Language, StepRole
 from planner.site.site_view import SiteView, Target
-from tests.planner.mission.skills.looking import EYES, NOW_S, at, looking, thing
+from tests.planner.mission.skills.looking import EYES, NOW_S, at, looking, sight, thing
 from tests.planner.mission.skills.scenes import said_of, scene
 from wire import CameraConfig, Pose2
 
@@ -331,20 +331,18 @@ ON, UNDER, NEAR = Relation
 
 
 TABLE = at("table", 1.6, 0.4)
+A_TABLE, A_BLUE_CHAIR = WantedObject("table"), WantedObject("chair", "blue")
 
 
 @pytest.mark.parametrize(
     ("words", "wanted"),
     [
-        ("the bottle on the table", WantedObject("bottle", None, ON, WantedObject("table"))),
-        (
-            "red cup next to a blue chair",
-            WantedObject("cup", "red", NEAR, WantedObject("chair", "blue")),
-        ),
-        ("box under the desk", WantedObject("box", None, UNDER, WantedObject("table"))),
-        ("桌子上的瓶子", WantedObject("bottle", None, ON, WantedObject("table"))),
+        ("the bottle on the table", WantedObject("bottle", None, ON, A_TABLE)),
+        ("red cup next to a blue chair", WantedObject("cup", "red", NEAR, A_BLUE_CHAIR)),
+        ("box under the desk", WantedObject("box", None, UNDER, A_TABLE)),
+        ("桌子上的瓶子", WantedObject("bottle", None, ON, A_TABLE)),
         ("椅子旁边的红色的杯子", WantedObject("cup", "red", NEAR, WantedObject("chair"))),
-        ("桌子下面的箱子", WantedObject("box", None, UNDER, WantedObject("table"))),
+        ("桌子下面的箱子", WantedObject("box", None, UNDER, A_TABLE)),
     ],
 )
 def test_a_neighbour_is_read_in_both_languages(words: str, wanted: WantedObject) -> None:
@@ -386,8 +384,7 @@ def test_positions_say_how_things_stand(thing: Thing, on: bool, under: bool, nea
 
 
 def looking_for(kind: str, words: str, *things: Thing, **more: Any) -> Any:
-    sight = Sight(LookSnapshot(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
-    fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
+    fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight(*things), "now_s": NOW_S}
     return act_of(scene(kind, step={"object": words}, **{**fields, **more}))
 
 
