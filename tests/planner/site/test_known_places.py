@@ -232,14 +232,7 @@ def test_another_map_keeps_its_places_and_they_are_never_driven_to(tmp_path: Pat
 
 def test_no_more_than_so_many(tmp_path: Path) -> None:
     many = tuple(
-        TaughtPlace(
-            id=f"spot_{n}",
-            name=Names(en=f"spot {n}", zh=f"地点{n}"),
-            pose=HERE,
-            map_id=SITE.map_id,
-            by="api",
-            taught=DAY,
-        )
+        CORNER.model_copy(update={"id": f"spot_{n}", "name": Names(en=f"spot {n}", zh=f"地点{n}")})
         for n in range(MAX_HERE)
     )
     TaughtPlaces.in_home(tmp_path).save(many)
