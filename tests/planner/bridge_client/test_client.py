@@ -12,16 +12,7 @@ import pytest
 from planner.bridge_client import BridgeSilent, Link
 from planner.bridge_client.scan_to_map import points_in_map
 from tests.planner.mission.fakes import FakeBridge
-from wire import (
-    Localization,
-    Odometry,
-    OpRequest,
-    Pose2,
-    RobotDescription,
-    Scan,
-    Stop,
-    Twist2,
-)
+from wire import Localization, Odometry, OpRequest, Pose2, RobotDescription, Scan, Stop, Twist2
 from wire.lidar_config import LidarConfig
 
 ROBOT, ORIGIN = RobotDescription(), Pose2(0.0, 0.0, 0.0)

@@ -15,12 +15,7 @@ from planner.brain import Brain
 from planner.brain.image_questions import Looker
 from planner.brain.scripted import Reply, ScriptedBrain
 from planner.bridge_client import Link
-from planner.mission import (
-    Clocks,
-    JournalSync,
-    MissionJournal,
-    Missions,
-)
+from planner.mission import Clocks, JournalSync, MissionJournal, Missions
 from planner.mission.journal_records import read_mission
 from planner.mission.perception_requests import nothing_spent
 from planner.mission.skills.perception import NO_PICTURES, PictureLimits

@@ -2,17 +2,7 @@
 
 from __future__ import annotations
 
-from planner.plan import (
-    Ask,
-    Bilingual,
-    Clarify,
-    Code,
-    Goal,
-    GoalState,
-    GoTo,
-    Option,
-    StepPlan,
-)
+from planner.plan import Ask, Bilingual, Clarify, Code, Goal, GoalState, GoTo, Option, StepPlan
 from tests.planner.mission.live import Together
 
 ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION

@@ -6,10 +6,7 @@ import pytest
 
 from planner.mission.activity import Retrying
 from planner.mission.api_view import goal_of, progress_of
-from planner.mission.events import (
-    Pause,
-    Resume,
-)
+from planner.mission.events import Pause, Resume
 from planner.mission.legs import RETRY_S
 from planner.plan import Code, MoveStraight, StepPlan, StepState, Wait
 from tests.planner.mission.driving import (

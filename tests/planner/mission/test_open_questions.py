@@ -50,11 +50,10 @@ from tests.planner.mission.driving import (
     driving,
     standing_still,
 )
-from tests.planner.mission.fakes import FakeBridge, outcome_of, row
+from tests.planner.mission.fakes import outcome_of
 from tests.planner.mission.lockstep import Together, go, talk
 from tests.planner.mission.rethinking import Rethinking
-from wire import Action, HeldReason, Mode, RowReport
-from wire import Answer as BridgeAnswer
+from wire import HeldReason, Mode
 
 ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION
 
@@ -149,63 +148,6 @@ def test_an_order_to_stop_is_a_goal_that_is_done(world: Together) -> None:
     assert world.goal(goal).state is PAUSED
     world.event(Submitted("s2", "stop", Language.EN, stop=True, echoed=False))
     assert (world.goal("s2").state, world.goal("s2").reason) == (FAILED, "bridge_silent")
-
-
-def test_a_late_or_repeated_status_changes_nothing(world: Together) -> None:
-    driving(world)
-    old = world.book.status
-    assert old is not None
-    world.run(0.5)
-    newest = world.book.status
-    world.engine.status(old, world.now_s)
-    assert world.book.status is newest
-
-
-def test_an_external_owner_is_never_pushed_aside() -> None:
-    world = Together(bridge=FakeBridge(owner="p9"))
-    goal = world.give(go("kitchen"))
-    world.run(0.5)
-    assert world.goal(goal).state is PAUSED or world.bridge.waypoints == []
-
-
-def test_the_operators_budget_pauses_and_a_person_goes_on(world: Together) -> None:
-    goal = driving(world)
-    spent = {"operator_metres": 0.0, "rows": (row("BUDGET"),)}
-    said = world.bridge.step().model_copy(update=spent)
-    world.carry(world.engine.status(said, world.now_s + 0.05))
-    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "budget")
-    world.event(Resume(goal))
-    world.run_until(goal, SUCCEEDED)
-
-
-@pytest.mark.parametrize("code", ["budget", "not_owner"])
-def test_a_refused_grant_ends_the_mission_only_where_nothing_can_help(
-    world: Together, code: str
-) -> None:
-    goal = driving(world)
-    world.bridge.turn()
-    refused = BridgeAnswer(id=goal, kind="grant", accepted=False, code=code, detail="")
-    said = world.bridge.step().model_copy(update={"answers": (refused,)})
-    world.carry(world.engine.status(said, world.now_s + 0.05))
-    assert (world.goal(goal).state is FAILED) == (code == "budget")
-
-
-@pytest.mark.parametrize(
-    ("shown", "mode", "reason"),
-    [
-        (row("DRIVER_NACK", Action.STOP1), Mode.HOLD, "fault(DRIVER_NACK)"),
-        (row("ESTOP", Action.FAST1), Mode.ESTOPPED, "estop"),
-    ],
-)
-def test_a_hold_by_fault_names_its_row_and_a_protective_stop_itself(
-    world: Together, shown: RowReport, mode: Mode, reason: str
-) -> None:
-    goal = driving(world)
-    world.bridge.rows = (shown,)
-    world.bridge.hold(HeldReason.FAULT)
-    world.bridge.mode = mode
-    world.run()
-    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, reason)
 
 
 def test_thinking_and_queued_goals_can_be_paused_and_resumed(world: Together) -> None:

@@ -18,13 +18,7 @@ from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
-from planner.mission.reception import (
-    AnswerReception,
-    Reception,
-    is_active,
-    receive,
-    receive_answer,
-)
+from planner.mission.reception import AnswerReception, Reception, is_active, receive, receive_answer
 from planner.mission.reducer import advance
 from planner.mission.request_keys import Repeats
 from planner.mission.state import MAX_OPEN, GoalKey, Mission, MissionState

@@ -8,15 +8,7 @@ from planner.brain.scripted import Reply
 from planner.language.yes_no import consents
 from planner.mission import QueueFull
 from planner.mission.state import MAX_OPEN
-from planner.plan import (
-    AnswerPlan,
-    Bilingual,
-    Clarify,
-    Code,
-    GoalState,
-    GoTo,
-    StepPlan,
-)
+from planner.plan import AnswerPlan, Bilingual, Clarify, Code, GoalState, GoTo, StepPlan
 from tests.planner.mission.live import KITCHEN, Starter
 from tests.planner.mission.saying import (
     ASKS,

@@ -21,14 +21,7 @@ from planner.brain.prompt import Prompt
 from planner.bridge_client import Aged
 from planner.mission.place_survey import RobotSurvey
 from planner.navigation import RouteRequest, RouteResult
-from planner.site import (
-    MAX_HERE,
-    PlaceRefusal,
-    Site,
-    SiteError,
-    TaughtPlace,
-    TaughtPlaces,
-)
+from planner.site import MAX_HERE, PlaceRefusal, Site, SiteError, TaughtPlace, TaughtPlaces
 from planner.site.known_places import KnownPlaces, Lesson
 from planner.site.marks import MarkExit, find_exit
 from planner.site.places import Names

@@ -14,12 +14,7 @@ from planner.mission.skills import Eyesight, Fail, Finish, ImageAnswer, Observe,
 from planner.mission.skills.actions import UNSEEN, AskImage
 from planner.mission.skills.go_to_object import go_to_object
 from planner.mission.skills.look import NO_DETECTOR, look
-from planner.mission.skills.skill_state import (
-    GoToObjectState,
-    LookStage,
-    LookState,
-    PointingStage,
-)
+from planner.mission.skills.skill_state import GoToObjectState, LookStage, LookState, PointingStage
 from planner.mission.skills.state_base import SkillStateBase
 from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual, Code, StepRole, say_same
