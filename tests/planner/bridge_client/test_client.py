@@ -3,31 +3,19 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Coroutine
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from math import pi
-from typing import Any, TypeVar
 
 import pytest
 
 from planner.bridge_client import BridgeSilent, Link
 from planner.bridge_client.scan_to_map import points_in_map
 from tests.planner.mission.fakes import FakeBridge
-from wire import (
-    Localization,
-    LocalizerStatus,
-    Nav2State,
-    Odometry,
-    OpRequest,
-    Pose2,
-    RobotDescription,
-    Scan,
-    Stop,
-    Twist2,
-)
+from wire import Localization, Odometry, OpRequest, Pose2, RobotDescription, Scan, Stop, Twist2
 from wire.lidar_config import LidarConfig
 
 ROBOT, ORIGIN = RobotDescription(), Pose2(0.0, 0.0, 0.0)
-T = TypeVar("T")
 
 
 class Clock:
@@ -41,54 +29,52 @@ class Clock:
         return self.now_s
 
 
-def with_polls(bridge: FakeBridge, link: Link, work: Coroutine[Any, Any, T]) -> T:
-    """Run some work while a bridge goes on and the link is polled."""
+@asynccontextmanager
+async def polled(bridge: FakeBridge, link: Link) -> AsyncIterator[None]:
+    """Let a bridge go on and the link be polled meanwhile."""
 
-    async def together() -> T:
-        async def polls() -> None:
-            while True:
-                bridge.step()
-                link.poll()
-                await asyncio.sleep(0)
+    async def polls() -> None:
+        while True:
+            bridge.step()
+            link.poll()
+            await asyncio.sleep(0)
 
-        task = asyncio.create_task(polls())
-        try:
-            return await work
-        finally:
-            task.cancel()
-
-    return asyncio.run(together())
+    task = asyncio.create_task(polls())
+    yield
+    task.cancel()
 
 
-def test_stop_is_repeated_until_echoed() -> None:
+async def test_stop_is_repeated_until_echoed() -> None:
     bridge = FakeBridge()
     link = Link(bridge, ROBOT, clock=Clock())
-    result = with_polls(bridge, link, link.stop("test"))
+    async with polled(bridge, link):
+        result = await link.stop("test")
     assert result.is_echoed
     assert bridge.held is not None
     assert bridge.held.id == result.id
 
 
-def test_stop_gives_up_aloud_after_two_seconds() -> None:
+async def test_stop_gives_up_aloud_after_two_seconds() -> None:
     bridge, clock = FakeBridge(deaf=True), Clock(per_call_s=0.5)
     sent: list[object] = []
     bridge.send = sent.append  # type: ignore[method-assign,assignment]  # a bridge that hears nothing
-    result = asyncio.run(Link(bridge, ROBOT, clock=clock).stop("test"))
+    result = await Link(bridge, ROBOT, clock=clock).stop("test")
     assert not result.is_echoed
     assert result.waited_s >= 2.0
     assert len(sent) >= 2
     assert all(isinstance(m, Stop) and m.id == result.id for m in sent)
 
 
-def test_operate_returns_the_verdict_or_raises() -> None:
+async def test_operate_returns_the_verdict_or_raises() -> None:
     bridge = FakeBridge()
     link = Link(bridge, ROBOT, clock=Clock())
     request = OpRequest(id="r-1", source="test")
-    answer = with_polls(bridge, link, link.operate("disarm", request))
+    async with polled(bridge, link):
+        answer = await link.operate("disarm", request)
     assert (answer.id, answer.kind, answer.accepted) == ("r-1", "disarm", True)
     silent = Link(FakeBridge(deaf=True), ROBOT, clock=Clock(per_call_s=0.5))
     with pytest.raises(BridgeSilent) as error:
-        asyncio.run(silent.operate("disarm", request))
+        await silent.operate("disarm", request)
     assert error.value.code == "bridge_silent"
     assert error.value.message["zh"]
 
@@ -126,12 +112,6 @@ class Moving(FakeBridge):
         self.odom_m += 1.0
         return Odometry(odom_id="o", seq=int(self.odom_m), stamp_s=1.0, base_in_odom=ORIGIN,
                         twist=Twist2(0.0, 0.0), yaw_rate_radps=None)  # fmt: skip
-
-    def nav2(self) -> Nav2State | None:
-        return None
-
-    def localizer(self) -> LocalizerStatus | None:
-        return None
 
     def localization(self) -> Localization | None:
         if self.odom_m != 1.0:

@@ -294,24 +294,23 @@ def test_what_cannot_be_settled_stays_at_its_worst(tmp_path: Path) -> None:
         assert (kept.usage().today.calls, kept.usage().today.reply_tokens) == (2, 15)
 
 
-def test_a_ledger_that_another_program_holds_keeps_the_loop_free(tmp_path: Path) -> None:
-    async def story(kept: Purse, holder: sqlite3.Connection) -> OpenCall:
-        with thinking_about("g1"):
-            opening = asyncio.create_task(kept.open(20))
-        for _ in range(10):
-            await asyncio.sleep(0)
-        assert not opening.done()
-        assert kept.usage().today.calls == 1
-        holder.execute("ROLLBACK")
-        return await opening
-
+async def test_a_ledger_that_another_program_holds_keeps_the_loop_free(tmp_path: Path) -> None:
     with purse(tmp_path, Time()) as kept:
-        call(kept, "g0")
+        with thinking_about("g0"):
+            (await kept.open(20)).close(20, 5)
         with closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as holder:
-            look(kept)
+            await kept.look()
             holder.execute("BEGIN IMMEDIATE")
-            asyncio.run(story(kept, holder)).close(20, 5)
-        assert look(kept).today.calls == 2
+            with thinking_about("g1"):
+                opening = asyncio.create_task(kept.open(20))
+            for _ in range(10):
+                await asyncio.sleep(0)
+            assert not opening.done()
+            assert kept.usage().today.calls == 1
+            holder.execute("ROLLBACK")
+            (await opening).close(20, 5)
+        await kept.look()
+        assert kept.usage().today.calls == 2
 
 
 def test_a_folder_that_cannot_be_read_refuses_to_start(tmp_path: Path) -> None:

@@ -42,6 +42,12 @@ def store(tmp_path: Path) -> MemoryStore:
     return store_in(tmp_path)
 
 
+@pytest.fixture(scope="module")
+def reused(tmp_path_factory: pytest.TempPathFactory) -> MemoryStore:
+    """Return the one store of all examples of a law, each of which empties it first."""
+    return store_in(tmp_path_factory.mktemp("m"))
+
+
 def at(seen: ObjectSighting, age_s: float, **changes: object) -> ObjectSighting:
     moment = NOW_S - age_s
     return replace(seen, seen_unix_s=moment, first_unix_s=moment, **changes)  # type: ignore[arg-type]
@@ -183,12 +189,10 @@ FACTS = st.sampled_from(("keys on the sofa", "书在书房", "the cup of tea is 
     about=st.sampled_from(NAMES),
 )
 def test_what_was_forgotten_is_never_answered(
-    tmp_path_factory: pytest.TempPathFactory,
-    seen: list[ObjectSighting],
-    facts: list[str],
-    about: str,
+    reused: MemoryStore, seen: list[ObjectSighting], facts: list[str], about: str
 ) -> None:
-    store = store_in(tmp_path_factory.mktemp("m"))
+    store = reused
+    store.forget_all()
     store.see(seen)
     for fact in facts:
         store.teach(fact, NOW_S, said_by="page")
@@ -204,21 +208,19 @@ def test_what_was_forgotten_is_never_answered(
 
 @given(seen=st.lists(SEEN, max_size=15), text=st.sampled_from(("", *NAMES)))
 def test_the_newest_comes_first_and_only_what_fits(
-    tmp_path_factory: pytest.TempPathFactory, seen: list[ObjectSighting], text: str
+    reused: MemoryStore, seen: list[ObjectSighting], text: str
 ) -> None:
-    store = store_in(tmp_path_factory.mktemp("m"))
-    store.see(seen)
-    found = store.find(MemoryQuery(text, limit=200), NOW_S)
+    reused.forget_all()
+    reused.see(seen)
+    found = reused.find(MemoryQuery(text, limit=200), NOW_S)
     ages = [memo.last_unix_s for memo in found]
     assert ages == sorted(ages, reverse=True)
     assert {memo.label for memo in found} == {s.label for s in seen if text in ("", s.label)}
 
 
 @given(text=st.text(max_size=40))
-def test_any_words_are_searched_without_an_error(
-    tmp_path_factory: pytest.TempPathFactory, text: str
-) -> None:
-    store = store_in(tmp_path_factory.mktemp("m"))
-    store.see([CUP])
-    store.find(MemoryQuery(text), NOW_S)
-    store.forget_about(text)
+def test_any_words_are_searched_without_an_error(reused: MemoryStore, text: str) -> None:
+    reused.forget_all()
+    reused.see([CUP])
+    reused.find(MemoryQuery(text), NOW_S)
+    reused.forget_about(text)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -35,59 +34,55 @@ class Watch:
     def wall(self) -> float:
         return 1_800_000_000.0 + self.now_s
 
-    def see(self, *things: Thing) -> None:
+    async def see(self, *things: Thing) -> None:
         self.now_s += 1.0
         seen = tuple(replace(thing, seen_s=self.now_s) for thing in things)
         self.recorder.take(Sight(things=seen))
-        asyncio.run(self.recorder.flush())
+        await self.recorder.flush()
 
     def kept(self) -> list[tuple[str, int, str]]:
         found = self.store.find(MemoryQuery(), self.wall())
         return [(memo.label, memo.sightings, memo.step) for memo in found]
 
 
-def test_what_is_seen_is_kept_with_its_step(tmp_path: Path) -> None:
+async def test_what_is_seen_is_kept_with_its_step(tmp_path: Path) -> None:
     watch = Watch(tmp_path)
-    watch.see(CUP)
-    watch.see(CUP)
+    await watch.see(CUP)
+    await watch.see(CUP)
     assert watch.kept() == [("cup", 2, "patrol")]
     (memo,) = watch.store.find(MemoryQuery("cup"), watch.wall())
     assert (memo.support, memo.last_unix_s) == ("table", watch.wall())
 
 
-def test_what_one_picture_shows_is_not_kept(tmp_path: Path) -> None:
+async def test_what_one_picture_shows_is_not_kept(tmp_path: Path) -> None:
     watch = Watch(tmp_path)
-    watch.see(replace(CUP, sightings=1), replace(CUP, id="cup_2", confidence=0.3))
+    await watch.see(replace(CUP, sightings=1), replace(CUP, id="cup_2", confidence=0.3))
     assert watch.kept() == []
 
 
-def test_what_is_merely_tracked_is_not_seen_anew(tmp_path: Path) -> None:
+async def test_what_is_merely_tracked_is_not_seen_anew(tmp_path: Path) -> None:
     watch = Watch(tmp_path)
     watch.recorder.take(Sight(things=(CUP,)))  # of an older program: seen before this one began
-    asyncio.run(watch.recorder.flush())
+    await watch.recorder.flush()
     assert watch.kept() == []
 
 
-def test_forgotten_until_it_is_seen_again(tmp_path: Path) -> None:
+async def test_forgotten_until_it_is_seen_again(tmp_path: Path) -> None:
     watch = Watch(tmp_path)
-    watch.see(CUP)
+    await watch.see(CUP)
     watch.recollection.listen(watch.recorder.drop)
-    asyncio.run(watch.recollection.forget_about("cup"))
+    await watch.recollection.forget_about("cup")
     still = replace(CUP, seen_s=watch.now_s, confidence=0.85)
     watch.recorder.take(Sight(things=(still,)))
-    asyncio.run(watch.recorder.flush())
+    await watch.recorder.flush()
     assert watch.kept() == []
-    watch.see(CUP)
+    await watch.see(CUP)
     assert watch.kept() == [("cup", 1, "patrol")]
 
 
-def test_what_an_older_program_remembered_comes_in_once(tmp_path: Path) -> None:
+async def test_what_an_older_program_remembered_comes_in_once(tmp_path: Path) -> None:
     watch = Watch(tmp_path)
-
-    async def start_twice() -> None:
-        for _ in range(2):
-            await watch.recorder.start((replace(CUP, seen_s=-50.0, first_s=-60.0),))
-            await watch.recorder.close()
-
-    asyncio.run(start_twice())
+    for _ in range(2):
+        await watch.recorder.start((replace(CUP, seen_s=-50.0, first_s=-60.0),))
+        await watch.recorder.close()
     assert [label for label, _, _ in watch.kept()] == ["cup"]

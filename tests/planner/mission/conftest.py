@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from planner.site import Site
+from tests.planner.mission.live import Starter, planner
 from tests.planner.mission.lockstep import Together
 
 
@@ -21,3 +23,8 @@ def world() -> Together:
 @pytest.fixture(scope="module")
 def site(repository: Path) -> Site:
     return Site.load(repository / "sites" / "two_room")
+
+
+@pytest.fixture
+def start(tmp_path: Path, site: Site) -> Starter:
+    return partial(planner, tmp_path, site)

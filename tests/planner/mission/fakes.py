@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 from math import ceil, hypot
 from typing import Any
 
+from planner.mission.state import Mission
 from planner.navigation import RoutePoint
-from planner.plan import Bilingual
+from planner.plan import Bilingual, Goal, Outcome
 from planner.site.site_view import SiteView, Target
 from wire import (
     IDENTITY,
@@ -97,6 +98,12 @@ FACTS = SiteView(
     },
     home="dock",
 )
+
+
+def outcome_of(goal: Mission | Goal) -> Outcome:
+    """Return what a goal has come to, or asks."""
+    assert goal.outcome is not None
+    return goal.outcome
 
 
 def straight(start: Pose2, goal: Pose2, speed_mps: float = 0.5) -> tuple[RoutePoint, ...]:

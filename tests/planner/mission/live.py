@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import sqlite3
 from collections.abc import AsyncIterator, Callable, Coroutine
-from contextlib import asynccontextmanager
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from itertools import count
 from math import hypot
 from pathlib import Path
@@ -15,12 +15,7 @@ from planner.brain import Brain
 from planner.brain.image_questions import Looker
 from planner.brain.scripted import Reply, ScriptedBrain
 from planner.bridge_client import Link
-from planner.mission import (
-    Clocks,
-    JournalSync,
-    MissionJournal,
-    Missions,
-)
+from planner.mission import Clocks, JournalSync, MissionJournal, Missions
 from planner.mission.journal_records import read_mission
 from planner.mission.perception_requests import nothing_spent
 from planner.mission.skills.perception import NO_PICTURES, PictureLimits
@@ -36,8 +31,6 @@ from wire import Pose2, RobotDescription, Status
 POLL_S = 0.002
 """The bridge goes on at each poll: with the planner's own 5 ms tests would mostly sleep."""
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
-
-
 SOFA = StepPlan(steps=(GoTo(place="sofa"),))
 
 
@@ -81,6 +74,20 @@ class Together:
     async def reach(self, goal_id: str, *states: GoalState) -> Goal:
         await self.until(lambda: self.missions.goal(goal_id).state in states)
         return self.missions.goal(goal_id)
+
+    async def give(self, text: str, *states: GoalState, **more: Any) -> Goal:
+        """Submit a sentence; return its goal once it is in one of these states."""
+        return await self.reach((await self.missions.submit(text, **more)).id, *states)
+
+    async def drive(self, text: str = "go to the kitchen") -> Goal:
+        """Submit a sentence; return its goal once the robot drives."""
+        goal = await self.give(text, GoalState.RUNNING)
+        await self.until(lambda: self.bridge.horizon is not None)
+        return goal
+
+
+Starter = Callable[..., AbstractAsyncContextManager[Together]]
+"""Starts missions as ``planner`` does, in a home and a site of the test's own."""
 
 
 @asynccontextmanager

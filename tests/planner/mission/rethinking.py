@@ -11,6 +11,7 @@ from planner.plan import BrainTag, Outcome
 from tests.planner.mission.lockstep import Together
 
 TAG = BrainTag(name="b", version="1")
+SHUT = "no_route"
 
 
 @dataclass
@@ -31,3 +32,16 @@ class Rethinking(Together):
                                    thought if down else None, self.tag))  # fmt: skip
             return
         super().answer(effect)
+
+
+def rethinking(*thoughts: Any, shut: bool = False) -> Rethinking:
+    """Return a world of these thoughts, in which every way is shut or none."""
+    world = Rethinking(thoughts=list(thoughts), way=lambda _: SHUT if shut else None)
+    world.run(0.2)
+    return world
+
+
+def given(*thoughts: Any, shut: bool = False) -> tuple[Rethinking, str]:
+    """Return such a world with a goal that was given to it."""
+    world = rethinking(*thoughts, shut=shut)
+    return world, world.give(None)

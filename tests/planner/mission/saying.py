@@ -2,17 +2,7 @@
 
 from __future__ import annotations
 
-from planner.plan import (
-    Ask,
-    Bilingual,
-    Clarify,
-    Code,
-    Goal,
-    GoalState,
-    GoTo,
-    Option,
-    StepPlan,
-)
+from planner.plan import Ask, Bilingual, Clarify, Code, Goal, GoalState, GoTo, Option, StepPlan
 from tests.planner.mission.live import Together
 
 ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION
@@ -27,18 +17,14 @@ OFFERS = Clarify(code=Code.NO_CAPABILITY, question=Bilingual(en="Go?", zh="åŽ»ï¼
 
 async def asking(world: Together, text: str = "please see to it") -> Goal:
     """Give a goal whose first step asks, and wait until it does; then let time pass."""
-    goal = await world.missions.submit(text)
-    goal = await world.reach(goal.id, ASKS)
+    goal = await world.give(text, ASKS)
     await later(world)
     return goal
 
 
 async def asking_on_the_way(world: Together) -> tuple[Goal, Goal]:
     """Give a goal that asks, and one that drives meanwhile; return both once it does."""
-    goal = await asking(world)
-    driving = await world.missions.submit("go to the kitchen")
-    await world.until(lambda: world.bridge.horizon is not None)
-    return goal, driving
+    return await asking(world), await world.drive()
 
 
 async def later(world: Together) -> None:

@@ -19,7 +19,7 @@ from planner.mission.state import ORDER_SOURCE
 from planner.plan import Clarify, ComeBack, GoTo, Language, Plan, Say, StepPlan
 from tests.planner.brain.conftest import HOME
 from tests.planner.mission.driving import QUEUED, RUNNING, SUCCEEDED
-from tests.planner.mission.fakes import FACTS, status
+from tests.planner.mission.fakes import FACTS, outcome_of, status
 from tests.planner.mission.lockstep import Together, go
 from wire import Pose2
 
@@ -58,8 +58,7 @@ def test_the_robot_comes_back_to_where_the_errand_was_given() -> None:
     goal = world.give(BACK)
     world.run_until(goal, SUCCEEDED)
     assert is_near(world, HERE)
-    outcome = world.goal(goal).outcome
-    assert outcome is not None
+    outcome = outcome_of(world.goal(goal))
     assert outcome.message.en == "Arrived: where you gave the order."
 
 

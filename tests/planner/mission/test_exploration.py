@@ -15,7 +15,7 @@ from planner.mission.skills.explore import DRAWN_S, MOST_SHUT, TURNS
 from planner.navigation import FloorReport
 from planner.plan import Code, Explore, ReturnHome, StepPlan, StepState
 from tests.planner.mission.driving import PAUSED, RUNNING, SUCCEEDED
-from tests.planner.mission.fakes import FACTS, straight
+from tests.planner.mission.fakes import FACTS, outcome_of, straight
 from tests.planner.mission.lockstep import Together
 from wire import Pose2
 
@@ -63,11 +63,10 @@ def test_it_looks_from_spot_to_spot_and_tells_what_it_mapped() -> None:
     world.run(4.0)
     world.spots, world.known_m2 = [], 31.4
     mission = world.run_until(goal, SUCCEEDED)
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.EXPLORED
-    assert "31 m² of floor" in mission.outcome.message.en
-    assert "drove 4 m" in mission.outcome.message.en
-    assert "31 平方米" in mission.outcome.message.zh
+    assert outcome_of(mission).code is Code.EXPLORED
+    assert "31 m² of floor" in outcome_of(mission).message.en
+    assert "drove 4 m" in outcome_of(mission).message.en
+    assert "31 平方米" in outcome_of(mission).message.zh
 
 
 def test_on_the_way_it_turns_to_where_more_is_to_be_seen() -> None:
@@ -102,8 +101,7 @@ def test_ways_that_are_shut_one_after_the_other_end_it_and_it_says_so() -> None:
     world = Exploring(way=lambda _: "no_route")
     mission = world.run_until(world.give(EXPLORE), SUCCEEDED)
     assert len(world.asked) == MOST_SHUT
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.PARTLY_EXPLORED
+    assert outcome_of(mission).code is Code.PARTLY_EXPLORED
     assert mission.steps[0].state is StepState.SUCCEEDED
 
 
@@ -129,14 +127,11 @@ def test_a_pause_forgets_nothing() -> None:
     assert world.run_until(goal, SUCCEEDED).steps[0].code is Code.EXPLORED
 
 
-def test_where_no_map_is_made_it_is_refused_and_told_how_one_is() -> None:
-    world = Together()
-    world.run(0.2)
+def test_where_no_map_is_made_it_is_refused_and_told_how_one_is(world: Together) -> None:
     mission = world.goal(world.give(EXPLORE))
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.NOT_MAPPING
-    assert "pons up --map NAME" in mission.outcome.message.en
-    assert "pons up --map" in mission.outcome.message.zh
+    assert outcome_of(mission).code is Code.NOT_MAPPING
+    assert "pons up --map NAME" in outcome_of(mission).message.en
+    assert "pons up --map" in outcome_of(mission).message.zh
 
 
 def test_where_a_way_is_shut_it_looks_round_and_asks_again() -> None:

@@ -27,7 +27,7 @@ from planner.plan import (
     Wait,
     WaitFor,
 )
-from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.lockstep import Together
 from tests.planner.mission.telling import Telling, thing, untruths
 
@@ -35,11 +35,18 @@ CUP = thing("cup", 1.5, 0.0, "hall")
 FAR_CUP = thing("cup", 4.5, 0.5, "kitchen")
 PERSON = thing("person", 4.5, 0.5, "kitchen")
 NAMES = {place: target.name for place, target in FACTS.targets.items()}
+THEN, ELSE = Say(text="then"), Say(text="else")
+KITCHEN, DOCK = GoTo(place="kitchen"), GoTo(place="dock")
 IN_KITCHEN = Look(question="is anybody there?", place="kitchen")
 
 
 def plan(*steps: Step) -> StepPlan:
     return StepPlan(steps=steps)
+
+
+def chooses(when: Any) -> StepPlan:
+    """Return a plan that says "then" where this holds, and "else" where it does not."""
+    return plan(If(when=when, then=(THEN,), otherwise=(ELSE,)))
 
 
 def kinds_done(mission: Any) -> list[str]:
@@ -49,10 +56,7 @@ def kinds_done(mission: Any) -> list[str]:
 def test_the_branch_that_the_look_calls_for_is_walked_and_the_other_is_not() -> None:
     for there, walked in ((True, "then"), (False, "else")):
         world = Telling(truth=(PERSON,) if there else ())
-        world.model.manner = "honest"
-        mission = world.play(
-            plan(If(when=IN_KITCHEN, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
-        )
+        mission = world.play(chooses(IN_KITCHEN))
         said = [s for s in mission.steps if s.kind == "say"]
         assert mission.state is GoalState.SUCCEEDED
         assert [s.text for s in said if s.state is StepState.SUCCEEDED] == [walked]
@@ -63,26 +67,21 @@ def test_the_branch_that_the_look_calls_for_is_walked_and_the_other_is_not() -> 
 
 def test_an_if_without_a_second_branch_goes_on_behind_it() -> None:
     world = Telling()
-    world.model.manner = "honest"
-    mission = world.play(plan(If(when=IN_KITCHEN, then=(Say(text="then"),)), Say(text="after")))
+    mission = world.play(plan(If(when=IN_KITCHEN, then=(THEN,)), Say(text="after")))
     assert mission.state is GoalState.SUCCEEDED
     assert kinds_done(mission) == ["if", "look", "say"]
-    assert mission.outcome is not None
-    assert "then" not in mission.outcome.message.en
-    assert "Not done" not in mission.outcome.message.en
+    assert "then" not in outcome_of(mission).message.en
+    assert "Not done" not in outcome_of(mission).message.en
 
 
 def test_what_nobody_can_tell_takes_neither_branch_and_says_so() -> None:
     world = Telling(truth=(PERSON,), unseen=(PERSON.id,))
     world.model.manner = "affirms"  # the detector says no, the model says yes
-    mission = world.play(
-        plan(If(when=IN_KITCHEN, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
-    )
+    mission = world.play(chooses(IN_KITCHEN))
     assert mission.state is GoalState.FAILED
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.UNSURE
-    assert mission.outcome.message.en.startswith("I can't tell, so I do neither.")
-    assert mission.outcome.message.zh.startswith("我判断不了，所以两样都没有做。")
+    assert outcome_of(mission).code is Code.UNSURE
+    assert outcome_of(mission).message.en.startswith("I can't tell, so I do neither.")
+    assert outcome_of(mission).message.zh.startswith("我判断不了，所以两样都没有做。")
     assert "say" not in kinds_done(mission)
 
 
@@ -91,9 +90,7 @@ def test_what_only_a_model_sees_steers_by_one_bit() -> None:
     for manner, walked in (("affirms", "then"), ("denies", "else")):
         world = Telling()
         world.model.manner = manner
-        mission = world.play(
-            plan(If(when=door, then=(GoTo(place="kitchen"),), otherwise=(Say(text="else"),)))
-        )
+        mission = world.play(plan(If(when=door, then=(KITCHEN,), otherwise=(ELSE,))))
         assert mission.state is GoalState.SUCCEEDED, mission.outcome
         assert ("go_to" in kinds_done(mission)) is (walked == "then"), mission.steps
         assert len(world.asked) == 1
@@ -104,9 +101,8 @@ def test_a_model_that_is_down_or_only_describes_takes_neither_branch() -> None:
         world = Telling()
         world.model.manner = manner
         door = Look(question="is the door open?")
-        mission = world.play(plan(If(when=door, then=(GoTo(place="kitchen"),))))
-        assert mission.outcome is not None
-        assert mission.outcome.code is Code.UNSURE
+        mission = world.play(plan(If(when=door, then=(KITCHEN,))))
+        assert outcome_of(mission).code is Code.UNSURE
         assert world.bridge.moved_epochs == []
 
 
@@ -114,9 +110,7 @@ def test_a_search_that_finds_nothing_is_a_no_and_no_failure() -> None:
     search = Find(object="cup", place="kitchen")
     for truth, walked in (((FAR_CUP,), "then"), ((), "else")):
         world = Telling(truth=truth)
-        mission = world.play(
-            plan(If(when=search, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
-        )
+        mission = world.play(chooses(search))
         assert mission.state is GoalState.SUCCEEDED, mission.outcome
         assert world.said == [walked]
 
@@ -132,7 +126,7 @@ def test_a_room_that_was_not_looked_in_is_not_empty() -> None:
 
 def test_an_answer_chooses_and_what_is_neither_is_asked_once_more() -> None:
     asks = Ask(question="May I come in?")
-    steps = plan(If(when=asks, then=(GoTo(place="kitchen"),), otherwise=(Say(text="else"),)))
+    steps = plan(If(when=asks, then=(KITCHEN,), otherwise=(ELSE,)))
     for replies, moves in ((["yes"], True), (["no"], False), (["tea", "yes please"], True)):
         world = Telling(replies=list(replies))
         mission = world.play(steps)
@@ -141,8 +135,7 @@ def test_an_answer_chooses_and_what_is_neither_is_asked_once_more() -> None:
         assert world.answers == replies
     world = Telling(replies=["tea", "coffee"])
     mission = world.play(steps)
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.UNSURE
+    assert outcome_of(mission).code is Code.UNSURE
     assert world.bridge.moved_epochs == []
 
 
@@ -152,7 +145,7 @@ def test_where_a_step_fails_the_plan_has_a_way_of_its_own() -> None:
     mission = world.play(
         plan(
             Attempt(
-                steps=(GoTo(place="kitchen"), Say(text="dinner is ready")),
+                steps=(KITCHEN, Say(text="dinner is ready")),
                 on_failure=(Say(text="dinner is ready, here"),),
             )
         )
@@ -160,9 +153,8 @@ def test_where_a_step_fails_the_plan_has_a_way_of_its_own() -> None:
     assert mission.state is GoalState.SUCCEEDED
     assert world.said == ["dinner is ready, here"]
     assert len(world.asked) == 1, "nobody thinks again"
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.DONE, "nobody arrived"
-    assert mission.outcome.message.en == (
+    assert outcome_of(mission).code is Code.DONE, "nobody arrived"
+    assert outcome_of(mission).message.en == (
         "I found no way to the kitchen. Instead: I said “dinner is ready, here”."
     )
     assert not untruths(mission, NAMES)
@@ -172,35 +164,29 @@ def test_a_way_that_is_free_leaves_the_fallback_out() -> None:
     world = Telling()
     mission = world.play(
         plan(
-            Attempt(steps=(GoTo(place="kitchen"),), on_failure=(GoTo(place="dock"),)),
+            Attempt(steps=(KITCHEN,), on_failure=(DOCK,)),
             Say(text="after"),
         )
     )
     assert kinds_done(mission) == ["try", "go_to", "say"]
-    assert mission.outcome is not None
-    assert mission.outcome.message.en == "Arrived: kitchen. I said “after”."
+    assert outcome_of(mission).message.en == "Arrived: kitchen. I said “after”."
 
 
 def test_a_fallback_that_fails_too_ends_the_goal_with_both() -> None:
     world = Telling()
     world.shut((FACTS.targets["kitchen"].pose, FACTS.targets["dock"].pose))
-    mission = world.play(
-        plan(Attempt(steps=(GoTo(place="kitchen"),), on_failure=(GoTo(place="dock"),)))
-    )
+    mission = world.play(plan(Attempt(steps=(KITCHEN,), on_failure=(DOCK,))))
     assert mission.state is GoalState.FAILED
-    assert mission.outcome is not None
-    assert "kitchen" in mission.outcome.message.en
-    assert "dock" in mission.outcome.message.en
+    assert "kitchen" in outcome_of(mission).message.en
+    assert "dock" in outcome_of(mission).message.en
 
 
 def test_rounds_are_counted_and_told() -> None:
     world = Telling(truth=(CUP,))
-    world.model.manner = "honest"
     mission = world.play(plan(Repeat(times=2, steps=(Look(question="is there a cup?"),))))
     assert mission.state is GoalState.SUCCEEDED
     assert mission.steps[0].round == 2
-    assert mission.outcome is not None
-    assert mission.outcome.message.en.startswith("2 times: Yes, I see a cup")
+    assert outcome_of(mission).message.en.startswith("2 times: Yes, I see a cup")
 
 
 def test_a_repeat_ends_as_soon_as_it_holds_and_fails_where_it_never_does() -> None:
@@ -208,13 +194,11 @@ def test_a_repeat_ends_as_soon_as_it_holds_and_fails_where_it_never_does() -> No
     mission = None
     for truth, rounds, state in ((CUP,), 1, GoalState.SUCCEEDED), ((), 3, GoalState.FAILED):
         world = Telling(truth=truth)
-        world.model.manner = "honest"
         mission = world.play(plan(Repeat(times=3, steps=(Wait(seconds=1.0),), until=seen)))
         assert (mission.state, mission.steps[0].round) == (state, rounds)
     assert mission is not None
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.UNMET
-    assert "It did not come to that within 3 rounds." in mission.outcome.message.en
+    assert outcome_of(mission).code is Code.UNMET
+    assert "It did not come to that within 3 rounds." in outcome_of(mission).message.en
 
 
 def test_a_repeat_for_a_time_ends_with_it() -> None:
@@ -225,9 +209,7 @@ def test_a_repeat_for_a_time_ends_with_it() -> None:
 
 
 def test_the_clock_chooses() -> None:
-    always = plan(
-        If(when=ClockTime(after="00:00"), then=(Say(text="then"),), otherwise=(Say(text="else"),))
-    )
+    always = chooses(ClockTime(after="00:00"))
     world = Telling()
     world.play(always)
     assert world.said == ["then"]
@@ -252,15 +234,14 @@ def test_nobody_comes_and_that_is_told() -> None:
     world = Telling()
     mission = world.play(plan(WaitFor(object="person", seconds=5.0), Say(text="welcome")))
     assert mission.state is GoalState.FAILED
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.UNMET
+    assert outcome_of(mission).code is Code.UNMET
     assert world.bridge.moved_epochs == []
     assert world.said == []
 
 
 def test_a_word_lets_it_go_on_and_another_does_not() -> None:
     world = Telling(replies=["not yet", "ok, GO!"])
-    mission = world.play(plan(WaitFor(word="go"), GoTo(place="kitchen")))
+    mission = world.play(plan(WaitFor(word="go"), KITCHEN))
     assert mission.state is GoalState.SUCCEEDED
     assert world.answers == ["not yet", "ok, GO!"]
 
@@ -281,16 +262,16 @@ def test_a_failure_in_a_branch_comes_back_where_the_order_says() -> None:
 
 
 TWICE_THEN_BACK = plan(
-    Repeat(times=2, steps=(GoTo(place="kitchen"), Say(text="round"), GoTo(place="hall"))),
-    If(when=ClockTime(after="00:00"), then=(Say(text="then"),), otherwise=(Say(text="else"),)),
-    Attempt(steps=(GoTo(place="kitchen"),), on_failure=(Say(text="failed"),)),
+    Repeat(times=2, steps=(KITCHEN, Say(text="round"), GoTo(place="hall"))),
+    If(when=ClockTime(after="00:00"), then=(THEN,), otherwise=(ELSE,)),
+    Attempt(steps=(KITCHEN,), on_failure=(Say(text="failed"),)),
 )
 
 
 @pytest.mark.parametrize("after_s", range(1, 40, 3))
-def test_a_planner_killed_in_a_round_or_a_branch_goes_on_there(after_s: int) -> None:
-    world = Together()
-    world.run(0.2)
+def test_a_planner_killed_in_a_round_or_a_branch_goes_on_there(
+    world: Together, after_s: int
+) -> None:
     goal = world.give(TWICE_THEN_BACK)
     world.run(float(after_s))
     before = world.goal(goal)
@@ -317,15 +298,13 @@ def test_a_planner_killed_while_it_looks_for_a_condition_chooses_the_same_branch
     after_s: int,
 ) -> None:
     world = Telling(truth=(PERSON,))
-    world.model.manner = "honest"
-    steps = plan(If(when=IN_KITCHEN, then=(Say(text="then"),), otherwise=(Say(text="else"),)))
+    steps = chooses(IN_KITCHEN)
     world.thoughts = [steps]
     goal = world.give(None)
     world.see(float(after_s))
     if world.goal(goal).has_ended:
         return
     again = Telling(truth=(PERSON,), bridge=world.bridge, planner_id="p2", now_s=world.now_s)
-    again.model.manner = "honest"
     world.bridge.lose_owner()
     again.ids = world.ids
     again.event(Restarted(tuple(world.book.missions.values()), (), 0.0))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
 
 import pytest
 
 from planner.brain.interface import Exchange, Observation, ThinkRequest
 from planner.brain.offline_brain import TAG, OfflineBrain
-from planner.mission.events import Reply
+from planner.mission.events import Confirm, Reply, Resume, Stopped, Submitted
+from planner.mission.journal_records import read_mission
+from planner.mission.state import MAX_ANSWERS
 from planner.plan import (
     Ask,
     Bilingual,
@@ -19,18 +20,18 @@ from planner.plan import (
     Code,
     GoalState,
     GoTo,
+    Language,
     Option,
     PlanRole,
     Refuse,
     StepPlan,
     say_same,
 )
-from planner.site import Site
 from tests.planner.brain.conftest import HOME
 from tests.planner.mission.driving import SUCCEEDED
-from tests.planner.mission.live import KITCHEN, planner, run
+from tests.planner.mission.live import KITCHEN, Starter
 from tests.planner.mission.lockstep import go
-from tests.planner.mission.rethinking import Rethinking
+from tests.planner.mission.rethinking import given, rethinking
 
 ASKS = GoalState.NEEDS_CLARIFICATION
 
@@ -41,11 +42,8 @@ def which(text: str, *options: str) -> Clarify:
 
 
 def test_every_round_is_kept_and_told_in_later_thoughts_too() -> None:
-    shut = go("kitchen")
-    world = Rethinking(thoughts=[which("Which room?"), which("Which side?"), shut, shut])
-    world.way = lambda _: "no_route"
-    world.run(0.2)
-    goal = world.give(None)
+    asks, drive = (which("Which room?"), which("Which side?")), go("kitchen")
+    world, goal = given(*asks, drive, drive, shut=True)
     world.event(Reply(goal, "the one with the bed"))
     world.event(Reply(goal, "the left"))
     rounds = (
@@ -58,9 +56,7 @@ def test_every_round_is_kept_and_told_in_later_thoughts_too() -> None:
 
 
 def test_a_taken_offer_is_its_order_with_the_question_beside_it() -> None:
-    world = Rethinking(thoughts=[which("To the hall, then?", "go to the hall"), go("hall")])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(which("To the hall, then?", "go to the hall"), go("hall"))
     world.event(Reply(goal, "yes please"))
     assert world.asked[1].text == "go to the hall"
     assert world.asked[1].exchanges == (
@@ -70,9 +66,7 @@ def test_a_taken_offer_is_its_order_with_the_question_beside_it() -> None:
 
 
 def test_what_an_older_program_wrote_keeps_its_place() -> None:
-    world = Rethinking(thoughts=[which("One?"), which("Two?"), None])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(which("One?"), which("Two?"), None)
     world.event(Reply(goal, "first"))
     mission = world.goal(goal).model_copy(update={"questions": ()})
     world.engine.book.missions[goal] = mission
@@ -82,19 +76,15 @@ def test_what_an_older_program_wrote_keeps_its_place() -> None:
     )  # fmt: skip
 
 
-def test_a_brain_behind_the_door_hears_it(tmp_path: Path, site: Site) -> None:
-    async def story() -> None:
-        async with planner(tmp_path, site, which("Which room?"), KITCHEN) as world:
-            goal = await world.missions.submit("go to my room")
-            await world.reach(goal.id, ASKS)
-            assert (world.brain.asked[0].order, world.brain.asked[0].exchanges) == ("", ())
-            await world.missions.answer(goal.id, "the one with the bed")
-            await world.reach(goal.id, SUCCEEDED)
-            heard = world.brain.asked[1]
-            assert (heard.order, heard.text) == ("go to my room", "the one with the bed")
-            assert heard.exchanges[0].asked == "Which room?"
-
-    run(story())
+async def test_a_brain_behind_the_door_hears_it(start: Starter) -> None:
+    async with start(which("Which room?"), KITCHEN) as world:
+        goal = await world.give("go to my room", ASKS)
+        assert (world.brain.asked[0].order, world.brain.asked[0].exchanges) == ("", ())
+        await world.missions.answer(goal.id, "the one with the bed")
+        await world.reach(goal.id, SUCCEEDED)
+        heard = world.brain.asked[1]
+        assert (heard.order, heard.text) == ("go to my room", "the one with the bed")
+        assert heard.exchanges[0].asked == "Which room?"
 
 
 def test_an_answer_that_names_one_of_the_grammars_offers_is_that_order() -> None:
@@ -103,9 +93,7 @@ def test_an_answer_that_names_one_of_the_grammars_offers_is_that_order() -> None
         (TAG, "go to the hall"),
         (BrainTag(name="model", version="1"), "the hall, please"),
     ):
-        world = Rethinking(thoughts=[which("Which one?", *offers), go("hall")])
-        world.run(0.2)
-        goal = world.give(None)
+        world, goal = given(which("Which one?", *offers), go("hall"))
         mission = world.goal(goal).model_copy(update={"brain": brain})
         world.engine.book.missions[goal] = mission
         world.event(Reply(goal, "the hall, please"))
@@ -113,22 +101,18 @@ def test_an_answer_that_names_one_of_the_grammars_offers_is_that_order() -> None
         world.run_until(goal, SUCCEEDED)
 
 
-def test_an_order_in_place_of_the_answer_stands_alone(tmp_path: Path, site: Site) -> None:
-    async def story() -> None:
-        async with planner(tmp_path, site, which("Which room?"), KITCHEN) as world:
-            goal = await world.missions.submit("go to my room")
-            await world.reach(goal.id, ASKS)
-            await world.missions.answer(goal.id, "forget that, go to the kitchen")
-            await world.until(lambda: len(world.brain.asked) == 2)
-            heard = world.brain.asked[1]
-            assert (heard.text, heard.order, heard.exchanges) == (
-                "forget that, go to the kitchen",
-                "",
-                (),
-            )
-            assert heard.changed == ChangedOrder(words="go to the kitchen")
-
-    run(story())
+async def test_an_order_in_place_of_the_answer_stands_alone(start: Starter) -> None:
+    async with start(which("Which room?"), KITCHEN) as world:
+        goal = await world.give("go to my room", ASKS)
+        await world.missions.answer(goal.id, "forget that, go to the kitchen")
+        await world.until(lambda: len(world.brain.asked) == 2)
+        heard = world.brain.asked[1]
+        assert (heard.text, heard.order, heard.exchanges) == (
+            "forget that, go to the kitchen",
+            "",
+            (),
+        )
+        assert heard.changed == ChangedOrder(words="go to the kitchen")
 
 
 def test_the_offline_brain_goes_on_with_nothing_after_an_answer_it_can_not_read() -> None:
@@ -158,26 +142,20 @@ LAYS = Clarify(code=Code.NOT_UNDERSTOOD, question=say_same("To the hall?"), opti
 def test_a_plan_laid_before_a_person_is_done_as_it_stands_by_a_yes_or_its_own_words(
     answer: str,
 ) -> None:
-    world = Rethinking(thoughts=[LAYS])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(LAYS)
     world.event(Reply(goal, answer))
     world.run_until(goal, SUCCEEDED)
     assert len(world.asked) == 1  # nobody reads the words of the button
 
 
 def test_a_plan_laid_before_a_person_is_dropped_by_a_no() -> None:
-    world = Rethinking(thoughts=[LAYS])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(LAYS)
     world.event(Reply(goal, "no"))
     assert world.book.missions[goal].state is GoalState.CANCELLED
 
 
 def test_a_plan_laid_before_a_person_is_thought_about_after_any_other_answer() -> None:
-    world = Rethinking(thoughts=[LAYS, go("kitchen")])
-    world.run(0.2)
-    goal = world.give(None)
+    world, goal = given(LAYS, go("kitchen"))
     world.event(Reply(goal, "the one with the stove"))
     assert [a.text for a in world.asked][1:] == ["the one with the stove"]
 
@@ -186,8 +164,7 @@ def test_a_plan_laid_before_a_person_is_thought_about_after_any_other_answer() -
 def test_what_is_laid_in_place_of_what_runs_ends_that_by_a_yes_alone(role: PlanRole) -> None:
     plan = StepPlan(steps=(GoTo(place="hall"),), does=role)
     laid = LAYS.model_copy(update={"options": (LAID.model_copy(update={"plan": plan}),)})
-    world = Rethinking(thoughts=[go("kitchen"), laid])
-    world.run(0.2)
+    world = rethinking(go("kitchen"), laid)
     running, goal = world.give(None), world.give(None)
     assert world.goal(running).state is GoalState.RUNNING
     world.event(Reply(goal, "yes"))
@@ -197,8 +174,7 @@ def test_what_is_laid_in_place_of_what_runs_ends_that_by_a_yes_alone(role: PlanR
 
 
 def test_a_thought_is_told_the_order_before_it_and_never_itself() -> None:
-    world = Rethinking(thoughts=[go("kitchen"), which("Which?"), go("hall")])
-    world.run(0.2)
+    world = rethinking(go("kitchen"), which("Which?"), go("hall"))
     first, second = world.give(None), world.give(None)
     world.event(Reply(second, "the hall"))
     assert world.asked[0].newest is None
@@ -206,3 +182,51 @@ def test_a_thought_is_told_the_order_before_it_and_never_itself() -> None:
         assert asked.newest is not None
         assert asked.newest.steps == go("kitchen").steps
     world.run_until(first, SUCCEEDED)
+
+
+def test_what_was_answered_stays_beside_its_question_and_survives_the_journal() -> None:
+    ask = StepPlan(steps=(Ask(question="Shall I go on?"),))
+    world, goal = given(which("Which room?"), ask)
+    world.event(Reply(goal, "the one with the bed", "page"))
+    world.run(0.2)
+    world.event(Reply(goal, "yes", "voice"))
+    world.run_until(goal, SUCCEEDED)
+    kept = read_mission(world.goal(goal).model_dump_json())
+    told = [(a.asked.en if a.asked else "", a.said, a.by) for a in kept.answers]
+    assert told == [
+        ("Which room?", "the one with the bed", "page"),
+        ("Shall I go on?", "yes", "voice"),
+    ]
+    assert kept.answers[0].unix_s < kept.answers[1].unix_s
+
+
+def test_a_yes_by_a_button_has_no_words_and_answers_are_bounded() -> None:
+    world = rethinking(go("kitchen"))
+    goal = world.give(None, confirm=True)
+    for _ in range(2 * MAX_ANSWERS):
+        world.event(Reply(goal, "perhaps", "cli"))
+    assert len(world.goal(goal).answers) == MAX_ANSWERS
+    world.event(Confirm(goal, "page"))
+    assert [(a.said, a.by) for a in world.goal(goal).answers][-2:] == [
+        ("perhaps", "cli"),
+        (None, "page"),
+    ]
+
+
+async def test_a_stopped_goal_tells_who_stopped_it_until_it_goes_on(start: Starter) -> None:
+    async with start(KITCHEN) as world:
+        goal = await world.give("go to the kitchen", GoalState.RUNNING, by="cli")
+        await world.missions.stop("page")
+        stopped = world.missions.goal(goal.id)
+        assert (stopped.by, stopped.stopped_by, stopped.reason) == ("cli", "page", "stop")
+        await world.missions.resume(goal.id)
+        assert world.missions.goal(goal.id).stopped_by is None
+
+
+def test_a_sentence_that_stops_tells_its_door_too() -> None:
+    world, goal = given(go("kitchen"))
+    world.event(Submitted("s", "stop", Language.EN, stop=True, by="voice"))
+    assert world.goal(goal).stopped_by == "voice"
+    world.event(Resume(goal))
+    world.event(Stopped("cli"))
+    assert world.goal(goal).stopped_by == "cli"

@@ -1,4 +1,4 @@
-"""A mission drives, waits its turn, stops, pauses and goes on."""
+"""A mission drives, waits its turn, is interrupted by the bridge or a person, and goes on."""
 
 from __future__ import annotations
 
@@ -8,22 +8,21 @@ import pytest
 
 from planner.mission.events import (
     Cancel,
+    ChangeSpeed,
+    ClosingIn,
     Move,
     Pause,
     Planned,
     Resume,
     Stopped,
+    Tick,
 )
-from planner.plan import (
-    Code,
-    ComeBack,
-    GoTo,
-    ReturnHome,
-    StepPlan,
-    StepState,
-)
+from planner.mission.plan_roles import LEAST_SPEED_SHARE
+from planner.mission.route_doubts import LASTS_S, MEETING_SHARE
+from planner.plan import Code, ComeBack, GoTo, MoveStraight, ReturnHome, StepPlan, StepState, Turn
 from tests.planner.mission.driving import (
     CANCELLED,
+    FAILED,
     PAUSED,
     QUEUED,
     RUNNING,
@@ -31,15 +30,16 @@ from tests.planner.mission.driving import (
     driving,
     standing_still,
 )
+from tests.planner.mission.fakes import FakeBridge, outcome_of, row
 from tests.planner.mission.lockstep import Together, go, talk
-from wire import HeldReason, Pose2
+from wire import Action, HeldReason, Mode, Pose2, RowReport
+from wire import Answer as BridgeAnswer
 
 
 def test_arrives_and_says_how(world: Together) -> None:
     goal = world.give(go("kitchen"))
     done = world.run_until(goal, SUCCEEDED)
-    outcome = done.outcome
-    assert outcome is not None
+    outcome = outcome_of(done)
     assert outcome.code is Code.ARRIVED
     assert outcome.asked is not None
     assert outcome.asked.place == "kitchen"
@@ -188,8 +188,7 @@ def test_cancel_halts_with_a_horizon_of_no_points(world: Together) -> None:
     assert (last.mission, last.points) == (goal, ())
     assert standing_still(world)
     assert world.goal(goal).state is CANCELLED
-    outcome = world.goal(goal).outcome
-    assert outcome is not None
+    outcome = outcome_of(world.goal(goal))
     assert outcome.metres is not None
     assert outcome.metres > 0.2
 
@@ -211,3 +210,215 @@ def test_a_way_to_furniture_ends_at_the_heading_that_faces_it(world: Together) -
             if world.goal(goal).state is SUCCEEDED:
                 break
         assert {round(each, 4) for each in seen} == {round(heading, 4)}
+
+
+@pytest.mark.parametrize(
+    ("mode", "reason"),
+    [
+        (Mode.DISARMED, "disarmed"),
+        (Mode.ESTOPPED, "estop"),
+        (Mode.TELEOP, "teleop"),
+        (Mode.FAULT, "fault(RUNAWAY)"),
+    ],
+)
+def test_modes_that_end_driving_pause(world: Together, mode: Mode, reason: str) -> None:
+    goal = driving(world)
+    world.bridge.mode = mode
+    world.bridge.rows = (row("RUNAWAY", Action.FAST1),)
+    world.run()
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, reason)
+
+
+def test_bridge_restart_pauses_disarmed_and_arm_then_resume_goes_on(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.reboot()
+    world.run(1.0)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (PAUSED, "disarmed")
+    assert outcome_of(mission).code is Code.NOT_ARMED
+    world.bridge.mode = Mode.HOLD
+    assert standing_still(world)
+    world.event(Resume(goal))
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_goal_without_a_bridge_pauses_disarmed() -> None:
+    world = Together()
+    goal = world.give(go("kitchen"))
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "disarmed")
+
+
+def test_short_loss_of_the_owner_goes_on_with_hello_and_grant(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.lose_owner()
+    world.bridge.mode = Mode.HOLD
+    world.run_until(goal, SUCCEEDED)
+    assert world.goal(goal).leg == 1
+
+
+def test_silence_of_the_bridge_pauses(world: Together) -> None:
+    goal = driving(world)
+    world.now_s += 6.0
+    world.event(Tick())
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "fault(BRAIN_GONE)")
+
+
+def test_our_own_long_freeze_pauses(world: Together) -> None:
+    goal = driving(world)
+    world.now_s += 6.0
+    world.run()
+    assert world.goal(goal).state is PAUSED
+
+
+def test_a_row_that_stays_revokes_the_mission_and_nothing_recovers_meanwhile(
+    world: Together,
+) -> None:
+    goal = driving(world)
+    world.bridge.rows = (row("LIDAR_STALE"),)
+    world.bridge.blocked = True
+    world.run(29.0, every_s=0.5)
+    assert world.goal(goal).state is RUNNING
+    assert world.goal(goal).steps[0].recoveries == ()
+    world.run(2.0)
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "fault(LIDAR_STALE)")
+
+
+@pytest.mark.parametrize("step", [Turn(angle_rad=1.0), MoveStraight(distance_m=1.0)])
+def test_a_measured_step_without_a_pose_is_given_up_like_any_other(
+    world: Together, step: Turn | MoveStraight
+) -> None:
+    world.bridge.localized, world.bridge.rows = False, (row("LOC_LOST"),)
+    world.run(0.2)
+    goal = world.give(StepPlan(steps=(step,)))
+    entries = len(world.disk_entries)
+    world.run(29.0, every_s=0.25)
+    assert (world.goal(goal).state, len(world.disk_entries)) == (RUNNING, entries)
+    world.run(2.0)
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "fault(LOC_LOST)")
+
+
+@pytest.mark.parametrize(("name", "code"), [("BUDGET", Code.OUT_OF_BUDGET), ("STUCK", Code.FAULT)])
+def test_a_row_that_ends_a_mission_ends_it_alone(world: Together, name: str, code: Code) -> None:
+    goal = driving(world)
+    world.bridge.rows = (row(name),)
+    world.run()
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, name.lower())
+    assert outcome_of(mission).code is code
+    if name == "BUDGET":
+        world.run_until(world.give(go("kitchen")), SUCCEEDED)
+
+
+def test_rows_that_only_cap_or_do_not_bind_change_nothing(world: Together) -> None:
+    goal = driving(world)
+    world.bridge.rows = (row("BRAIN_LATE", Action.CAP), row("LIDAR_STALE", binding=False))
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_each_slower_halves_the_cap_down_to_a_quarter_and_faster_takes_it_back(
+    world: Together,
+) -> None:
+    goal = world.give(go("kitchen"))
+    world.run(1.0)
+    seen = []
+    for slower in (True, True, True, False, False, False):
+        world.event(ChangeSpeed(goal, slower=slower))
+        seen.append(world.goal(goal).speed_share)
+    assert seen == [0.5, LEAST_SPEED_SHARE, LEAST_SPEED_SHARE, 0.5, 1.0, 1.0]
+
+
+@pytest.mark.parametrize("share", [0.5, 0.25])
+def test_no_waypoint_is_faster_than_the_cap(world: Together, share: float) -> None:
+    goal = world.give(go("kitchen"))
+    world.run(1.0)
+    while world.goal(goal).speed_share != share:
+        world.event(ChangeSpeed(goal, slower=True))
+    world.run(0.2)
+    assert fastest_mps(world) <= share * 0.5 + 1e-9
+
+
+def test_a_late_or_repeated_status_changes_nothing(world: Together) -> None:
+    driving(world)
+    old = world.book.status
+    assert old is not None
+    world.run(0.5)
+    newest = world.book.status
+    world.engine.status(old, world.now_s)
+    assert world.book.status is newest
+
+
+def test_an_external_owner_is_never_pushed_aside() -> None:
+    world = Together(bridge=FakeBridge(owner="p9"))
+    goal = world.give(go("kitchen"))
+    world.run(0.5)
+    assert world.goal(goal).state is PAUSED or world.bridge.waypoints == []
+
+
+def test_the_operators_budget_pauses_and_a_person_goes_on(world: Together) -> None:
+    goal = driving(world)
+    spent = {"operator_metres": 0.0, "rows": (row("BUDGET"),)}
+    said = world.bridge.step().model_copy(update=spent)
+    world.carry(world.engine.status(said, world.now_s + 0.05))
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "budget")
+    world.event(Resume(goal))
+    world.run_until(goal, SUCCEEDED)
+
+
+@pytest.mark.parametrize("code", ["budget", "not_owner"])
+def test_a_refused_grant_ends_the_mission_only_where_nothing_can_help(
+    world: Together, code: str
+) -> None:
+    goal = driving(world)
+    world.bridge.turn()
+    refused = BridgeAnswer(id=goal, kind="grant", accepted=False, code=code, detail="")
+    said = world.bridge.step().model_copy(update={"answers": (refused,)})
+    world.carry(world.engine.status(said, world.now_s + 0.05))
+    assert (world.goal(goal).state is FAILED) == (code == "budget")
+
+
+@pytest.mark.parametrize(
+    ("shown", "mode", "reason"),
+    [
+        (row("DRIVER_NACK", Action.STOP1), Mode.HOLD, "fault(DRIVER_NACK)"),
+        (row("ESTOP", Action.FAST1), Mode.ESTOPPED, "estop"),
+    ],
+)
+def test_a_hold_by_fault_names_its_row_and_a_protective_stop_itself(
+    world: Together, shown: RowReport, mode: Mode, reason: str
+) -> None:
+    goal = driving(world)
+    world.bridge.rows = (shown,)
+    world.bridge.hold(HeldReason.FAULT)
+    world.bridge.mode = mode
+    world.run()
+    assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, reason)
+
+
+def fastest_mps(world: Together) -> float:
+    """Return the highest speed among the newest waypoints."""
+    return max(abs(point.speed_mps) for point in world.bridge.waypoints[-1].points)
+
+
+def test_another_robot_that_closes_in_is_met_at_half_the_speed_as_long_as_it_does(
+    world: Together,
+) -> None:
+    goal = world.give(go("kitchen"))
+    world.run(1.0)
+    free_mps, leg = fastest_mps(world), world.engine.leg
+    assert leg is not None
+    world.event(ClosingIn("another", leg.leg))
+    world.event(ClosingIn(leg.mission, leg.leg - 1))
+    world.run(0.2)
+    assert fastest_mps(world) == free_mps, "it was told of another leg"
+    world.event(ClosingIn(leg.mission, leg.leg))
+    world.run(0.2)
+    assert fastest_mps(world) <= MEETING_SHARE * free_mps + 1e-9
+    assert world.goal(goal).speed_share == 1.0, "which is a person's word"
+    world.event(ChangeSpeed(goal, slower=True))
+    world.event(ChangeSpeed(goal, slower=True))
+    world.run(0.2)
+    assert fastest_mps(world) <= LEAST_SPEED_SHARE * free_mps + 1e-9
+    for _ in range(2):
+        world.event(ChangeSpeed(goal, slower=False))
+    world.run(LASTS_S + 0.2)
+    assert fastest_mps(world) == free_mps

@@ -18,7 +18,7 @@ from planner.perception.interfaces import Picture
 from planner.perception.snapshot import Sight
 from planner.plan import Code, GoalState, Patrol, Repeat, Say, StepPlan
 from planner.site.polygon import contains
-from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.telling import Telling, thing, untruths
 from wire import Image, Pose2
 
@@ -57,18 +57,16 @@ class Patrolling(Telling):
 
 
 def told(mission: Mission) -> str:
-    assert mission.outcome is not None
-    return mission.outcome.message.en
+    return outcome_of(mission).message.en
 
 
 def test_what_was_seen_where_is_told_at_the_end() -> None:
     world = Patrolling(truth=(CUP, PERSON))
     mission = world.play(ROUND)
     assert mission.state is GoalState.SUCCEEDED, mission.outcome
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.SEEN
+    assert outcome_of(mission).code is Code.SEEN
     assert told(mission) == "hall: a cup. kitchen: a person."
-    assert "一个杯子。" in mission.outcome.message.zh
+    assert "一个杯子。" in outcome_of(mission).message.zh
     (step,) = mission.steps
     assert (step.visited, [stop.place for stop in step.stops]) == (2, ["hall", "kitchen"])
     assert not untruths(mission, NAMES)
@@ -95,8 +93,7 @@ def test_a_stop_without_a_way_is_told_and_passed_over() -> None:
     world.shut(tuple(target.pose for target in FACTS.targets.values()))
     mission = world.play(ROUND, None)
     assert mission.state is GoalState.FAILED
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.NO_ROUTE
+    assert outcome_of(mission).code is Code.NO_ROUTE
     assert "hall: I found no way there. kitchen: I found no way there." in told(mission)
 
 
@@ -115,8 +112,7 @@ def test_what_was_seen_before_the_eyes_went_blind_is_told() -> None:
     world = GoesBlind(truth=(CUP, PERSON))
     mission = world.play(ROUND, None)
     assert mission.state is GoalState.FAILED
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.BLIND
+    assert outcome_of(mission).code is Code.BLIND
     assert told(mission).startswith("hall: a cup. ")
 
 

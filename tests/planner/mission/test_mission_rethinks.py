@@ -9,7 +9,7 @@ import pytest
 
 from planner.language.catalogue import message
 from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply, Resume, Stopped
-from planner.mission.replan import ROAMS
+from planner.mission.replan import ROAMS, SAME_AGAIN
 from planner.mission.skills import Eyesight
 from planner.plan import (
     AnswerPlan,
@@ -27,29 +27,28 @@ from planner.plan import (
     GoToObject,
     GoToPoint,
     Look,
+    MoveStraight,
     Outcome,
+    Patrol,
     Refuse,
     ReturnHome,
     Say,
+    Step,
     StepPlan,
     StepState,
+    Turn,
+    Wait,
+    say_same,
 )
 from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, RUNNING, SUCCEEDED
-from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.lockstep import Together, go
-from tests.planner.mission.rethinking import Rethinking
+from tests.planner.mission.rethinking import SHUT, Rethinking, given, rethinking
 from wire import CameraConfig
 
-SHUT = "no_route"
 DECIDE = Decide(question="where to?")
 SAYS = Bilingual(en="It is gone.", zh="不见了。")
 DOWN = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
-
-
-def rethinking(*thoughts: Any, shut: bool = False) -> Rethinking:
-    world = Rethinking(thoughts=list(thoughts), way=lambda _: SHUT if shut else None)
-    world.run(0.2)
-    return world
 
 
 def plan(*steps: Any) -> StepPlan:
@@ -58,8 +57,7 @@ def plan(*steps: Any) -> StepPlan:
 
 def test_new_steps_replace_the_rest_and_know_what_was_heard() -> None:
     first = plan(Ask(question="Where to?"), DECIDE, Say(text="never said"))
-    world = rethinking(first, go("kitchen"))
-    goal = world.give(None)
+    world, goal = given(first, go("kitchen"))
     world.event(Reply(goal, "to the kitchen"))
     done = world.run_until(goal, SUCCEEDED)
     assert [s.kind for s in done.steps] == ["ask", "decide", "go_to"]
@@ -86,18 +84,15 @@ def test_a_failed_step_is_thought_about_with_what_went_wrong() -> None:
 
 def test_the_same_steps_again_end_with_the_first_failure_after_one_thought() -> None:
     """So it goes with the offline brain, whose answer to a sentence is always the same."""
-    world = rethinking(go("kitchen"), go("kitchen"), go("kitchen"), shut=True)
-    goal = world.give(None)
+    world, goal = given(go("kitchen"), go("kitchen"), go("kitchen"), shut=True)
     mission = world.goal(goal)
     assert (mission.state, mission.reason, len(world.asked)) == (FAILED, "no_route", 2)
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.NO_ROUTE
+    assert outcome_of(mission).code is Code.NO_ROUTE
 
 
 def test_no_more_new_plans_than_the_rules_allow() -> None:
     thoughts = [plan(Say(text=f"try {i}"), GoTo(place="kitchen")) for i in range(9)]
-    world = rethinking(*thoughts, shut=True)
-    goal = world.give(None)
+    world, goal = given(*thoughts, shut=True)
     assert world.goal(goal).state is FAILED
     assert len(world.asked) == 1 + world.book.rules.replans
     assert world.said == ["try 0", "try 1", "try 2"]
@@ -105,16 +100,14 @@ def test_no_more_new_plans_than_the_rules_allow() -> None:
 
 def test_no_goal_decides_for_ever() -> None:
     thoughts = [plan(Say(text=f"hm {i}"), DECIDE) for i in range(9)]
-    world = rethinking(*thoughts)
-    goal = world.give(None)
+    world, goal = given(*thoughts)
     mission = world.goal(goal)
     assert (mission.state, mission.reason) == (FAILED, "thoughts")
     assert len(world.asked) == 1 + world.book.rules.decides
 
 
 def test_a_thought_that_is_paused_and_resumed_counts_once() -> None:
-    world = rethinking(plan(DECIDE))
-    goal = world.give(None)
+    world, goal = given(plan(DECIDE))
     for _ in range(world.book.rules.decides + 1):
         world.event(Pause(goal))
         world.event(Resume(goal))
@@ -148,15 +141,13 @@ def test_an_answer_to_a_failure_is_told_behind_it() -> None:
     world = rethinking(go("kitchen"), advice, shut=True)
     mission = world.goal(world.give(None))
     assert mission.state is FAILED
-    assert mission.outcome is not None
-    assert mission.outcome.message.en.endswith("Please open the door.")
-    assert "no way to the kitchen" in mission.outcome.message.en
+    assert outcome_of(mission).message.en.endswith("Please open the door.")
+    assert "no way to the kitchen" in outcome_of(mission).message.en
 
 
 def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
     question = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which dock?", zh="哪个？"))
-    world = rethinking(plan(DECIDE), question, go("dock"))
-    goal = world.give(None)
+    world, goal = given(plan(DECIDE), question, go("dock"))
     assert world.goal(goal).state is GoalState.NEEDS_CLARIFICATION
     world.event(Reply(goal, "the left one"))
     world.run_until(goal, SUCCEEDED)
@@ -184,8 +175,7 @@ def test_another_destination_than_was_named_needs_a_yes(new: Any, named: str) ->
     goal = world.give(None)
     mission = world.goal(goal)
     assert (mission.state, mission.reason) == (GoalState.AWAITING_CONFIRMATION, "new_place")
-    assert mission.outcome is not None
-    assert named in mission.outcome.message.en
+    assert named in outcome_of(mission).message.en
     world.run(5.0)
     assert world.bridge.waypoints == []
     world.event(Confirm(goal))
@@ -234,8 +224,7 @@ def test_what_the_plan_looked_for_before_is_looked_for_without_a_yes(
 def test_a_thinking_brain_is_interrupted_at_once_and_its_answer_changes_nothing(
     order: Any, state: GoalState
 ) -> None:
-    world = rethinking(plan(DECIDE))
-    goal = world.give(None)
+    world, goal = given(plan(DECIDE))
     assert world.goal(goal).state is RUNNING
     world.event(order(goal))
     assert (world.goal(goal).state, world.dropped) == (state, [goal])
@@ -249,8 +238,7 @@ def test_a_thinking_brain_is_interrupted_at_once_and_its_answer_changes_nothing(
 
 
 def test_a_crash_while_it_thinks_about_a_failure_thinks_on_when_a_person_says_so() -> None:
-    world = rethinking(go("kitchen"), shut=True)
-    goal = world.give(None)
+    world, goal = given(go("kitchen"), shut=True)
     assert world.goal(goal).replans == 1
     after = world.restart()
     assert (after.goal(goal).state, after.goal(goal).reason) == (PAUSED, "planner_restarted")
@@ -270,8 +258,149 @@ def test_a_place_that_is_forgotten_on_the_way_stops_the_robot_and_is_told(world:
     world.run(0.2)
     mission = world.goal(goal)
     assert (mission.state, mission.reason) == (FAILED, "place_gone")
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.UNKNOWN_PLACE
-    assert mission.outcome.metres is not None
-    assert mission.outcome.metres > 0.2
+    assert outcome_of(mission).code is Code.UNKNOWN_PLACE
+    assert (outcome_of(mission).metres or 0.0) > 0.2
     assert world.bridge.horizon is None
+
+
+DINNER = Say(text="dinner is ready")
+
+
+def shut(world: Rethinking, *places: str) -> Rethinking:
+    """Leave no way to some places."""
+    poses = [FACTS.targets[place].pose for place in places]
+    world.way = lambda ask: "no_route" if ask.goal in poses else None
+    return world
+
+
+def told(world: Rethinking, goal: str, *, state: Any = SUCCEEDED, code: Code | None = None) -> str:
+    """Let a goal end, and return its sentence."""
+    outcome = outcome_of(world.run_until(goal, state))
+    assert code is None or outcome.code is code
+    return outcome.message.en
+
+
+@pytest.mark.parametrize(
+    ("steps", "code", "en"),
+    [
+        ((GoTo(place="kitchen"),), Code.ARRIVED, "Arrived: kitchen."),
+        ((GoTo(place="kitchen"), ReturnHome()), Code.ARRIVED, "Arrived: kitchen, then dock."),
+        ((GoTo(place="kitchen"), DINNER), Code.ARRIVED,
+         "Arrived: kitchen. I said “dinner is ready”."),
+        ((DINNER,), Code.DONE, "I said “dinner is ready”."),
+        ((Wait(seconds=0.2), GoTo(place="hall")), Code.ARRIVED,
+         "I waited 0.2 seconds. Arrived: hall."),
+        ((Patrol(places=("kitchen", "hall")),), Code.ARRIVED,
+         "Visited one after the other: kitchen, hall."),
+    ],
+)  # fmt: skip
+def test_each_step_is_accounted_for(steps: tuple[Step, ...], code: Code, en: str) -> None:
+    world = rethinking(plan(*steps))
+    assert told(world, world.give(None), code=code) == en
+
+
+def test_after_a_drive_that_failed_nobody_has_arrived() -> None:
+    world = shut(rethinking(plan(GoTo(place="kitchen"), DINNER), plan(DINNER)), "kitchen")
+    goal = world.give(None)
+    assert told(world, goal, code=Code.DONE) == (
+        "I found no way to the kitchen. Instead: I said “dinner is ready”."
+    )
+    message = outcome_of(world.goal(goal))
+    assert message.message.zh == "找不到去kitchen的路。改为：我说了“dinner is ready”。"
+
+
+def test_who_has_been_to_a_place_and_finds_no_way_back_has_not_arrived() -> None:
+    world, goal = given(go("kitchen", "hall", "kitchen"), plan(DINNER))
+    while world.goal(goal).step < 1:
+        world.run()
+    shut(world, "kitchen")
+    assert told(world, goal, code=Code.DONE) == (
+        "Been to: kitchen. Arrived: hall. I found no way to the kitchen. "
+        "Instead: I said “dinner is ready”."
+    )
+
+
+def test_a_drive_that_was_never_begun_says_nothing_about_an_arrival() -> None:
+    world, goal = given(go("hall", "dock", "kitchen", "dock"), AnswerPlan(text=say_same("no")))
+    shut(world, "kitchen")
+    assert told(world, goal, state=FAILED) == (
+        "Arrived: hall, then dock. I found no way to the kitchen. Not done: going to the dock."
+    )
+
+
+def test_another_place_that_was_gone_to_instead_is_told_so() -> None:
+    world = shut(rethinking(go("kitchen", "hall"), go("hall")), "kitchen")
+    assert told(world, world.give(None), code=Code.ARRIVED) == (
+        "I found no way to the kitchen. Instead: Arrived: hall."
+    )
+
+
+def test_what_was_answered_is_told_whatever_a_brain_says_after_it() -> None:
+    first = plan(GoTo(place="kitchen"), Ask(question="tea?"), Decide(question="what then?"))
+    world, goal = given(first, AnswerPlan(text=say_same("I was told.")))
+    while not world.goal(goal).outcome:
+        world.run()
+    world.event(Reply(goal, "green tea"))
+    assert told(world, goal, code=Code.ANSWERED) == (
+        "Arrived: kitchen. I asked “tea?”, and the answer was “green tea”. I was told."
+    )
+
+
+def test_what_failed_and_what_was_left_undone_are_named() -> None:
+    first = plan(DINNER, GoTo(place="kitchen"), Turn(angle_rad=1.0), MoveStraight(distance_m=0.5),
+                 Patrol(places=("hall", "kitchen")), Ask(question="tea?"))  # fmt: skip
+    world = shut(rethinking(first, None), "kitchen")
+    world.thoughts[1] = first  # the same again
+    assert told(world, world.give(None), state=FAILED, code=Code.NO_ROUTE) == (
+        "I said “dinner is ready”. I found no way to the kitchen. Not done: turning 57° to the "
+        "left, driving 0.5 m forward, visiting hall, kitchen, asking “tea?”."
+    )
+
+
+def test_a_patrol_that_ends_on_its_way_names_the_stops_it_made() -> None:
+    world = rethinking(
+        plan(Patrol(places=("hall", "kitchen", "dock"))), AnswerPlan(text=say_same("no"))
+    )
+    goal = world.give(None)
+    shut(world, "dock")
+    en = told(world, goal, state=FAILED)
+    assert en == "Visited one after the other: hall, kitchen. I found no way to the dock."
+
+
+def test_a_cancelled_goal_tells_what_it_said_before() -> None:
+    world, goal = given(plan(DINNER, GoTo(place="kitchen")))
+    while not world.goal(goal).metres and world.bridge.pose.x_m < 1.0:
+        world.run()
+    world.event(Cancel(goal))
+    assert told(world, goal, state=CANCELLED) == "I said “dinner is ready”. Cancelled."
+
+
+def test_thoughts_that_are_used_up_are_no_distance_and_no_time() -> None:
+    again = [plan(Wait(seconds=0.1 * n), Decide(question="?")) for n in range(1, 6)]
+    world, goal = given(*again)
+    en = told(world, goal, state=FAILED, code=Code.OUT_OF_BUDGET)
+    assert world.goal(goal).reason == "thoughts"
+    assert en.endswith("I have used up what I may for this: 3 thoughts under way.")
+    assert "distance" not in en
+
+
+def test_the_same_steps_again_are_named_in_both_languages() -> None:
+    again = plan(Wait(seconds=0.1), Decide(question="?"))
+    world, goal = given(again, again)
+    en = told(world, goal, state=FAILED, code=Code.BAD_PLAN)
+    outcome = outcome_of(world.goal(goal))
+    assert SAME_AGAIN.en in en
+    assert SAME_AGAIN.zh in outcome.message.zh
+    assert SAME_AGAIN.en not in outcome.message.zh
+
+
+def test_a_cause_is_told_to_a_later_thought_too() -> None:
+    """The first failure's words outlive the second's."""
+    first, second = go("kitchen", "dock"), go("dock")
+    world = shut(rethinking(first, second, plan(DINNER)), "kitchen", "dock")
+    world.run_until(world.give(None), SUCCEEDED)
+    details: list[Bilingual] = [each.detail for each in world.asked[2].observed]
+    assert [d.en for d in details] == [
+        "I found no way to the kitchen.",
+        "I found no way to the dock.",
+    ]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -11,7 +13,7 @@ from planner.mission.skills.skill_state import FindState
 from planner.mission.state import Mission
 from planner.plan import Code, ComeBack, Count, Find, GoalState, GoTo, If, Say, Step, StepPlan
 from planner.site.site_view import SiteView
-from tests.planner.mission.fakes import FACTS, room
+from tests.planner.mission.fakes import FACTS, outcome_of, room
 from tests.planner.mission.seeing import CUP, Seeing
 from wire import Grant
 
@@ -27,13 +29,17 @@ HOME = SiteView(
 ASKS, DONE = GoalState.NEEDS_CLARIFICATION, (GoalState.SUCCEEDED, GoalState.FAILED)
 
 
-@pytest.fixture
-def large() -> Seeing:
+def large_home() -> Seeing:
     world = Seeing()
     world.open_eyes()
     world.engine.book = replace(world.book, facts=HOME)
     world.run(0.2)
     return world
+
+
+@pytest.fixture
+def large() -> Seeing:
+    return large_home()
 
 
 def searching(world: Seeing, *steps: Step) -> str:
@@ -42,9 +48,20 @@ def searching(world: Seeing, *steps: Step) -> str:
     return goal
 
 
+@cache
+def _searched(step: Step) -> Seeing:
+    world = large_home()
+    assert searching(world, step) == "g1"
+    return world
+
+
+def searched(step: Step) -> Seeing:
+    """Return a world of its own in which goal g1 has searched until it asked."""
+    return deepcopy(_searched(step))
+
+
 def told(mission: Mission) -> str:
-    assert mission.outcome is not None
-    return mission.outcome.message.en
+    return outcome_of(mission).message.en
 
 
 def grants(world: Seeing) -> set[str]:
@@ -53,9 +70,9 @@ def grants(world: Seeing) -> set[str]:
 
 @pytest.mark.parametrize("step", [Find(object="cup"), Count(object="cup")])
 def test_a_yes_goes_on_in_the_rooms_that_were_left_and_under_a_grant_of_its_own(
-    large: Seeing, step: Step
+    step: Step,
 ) -> None:
-    goal = searching(large, step)
+    large, goal = searched(step), "g1"
     mission = large.goal(goal)
     assert mission.state is ASKS
     left = [name for name in ROOMS if name not in mission.skill_state.rooms]  # type: ignore[union-attr]
@@ -81,19 +98,18 @@ HOME_AT = {target.pose.x_m: name for name, target in HOME.targets.items() if tar
 
 
 @pytest.mark.parametrize("answer", ["no", "no, thanks"])
-def test_a_no_ends_it_with_what_was_seen(large: Seeing, answer: str) -> None:
-    goal = searching(large, Find(object="cup"))
+def test_a_no_ends_it_with_what_was_seen(answer: str) -> None:
+    large, goal = searched(Find(object="cup")), "g1"
     large.event(Reply(goal, answer))
     large.see_until(goal, *DONE)
     ended = large.goal(goal)
-    assert ended.outcome is not None
-    assert ended.outcome.code is Code.NOT_FOUND
+    assert outcome_of(ended).code is Code.NOT_FOUND
     assert "I did not look in the" in told(ended)
     assert grants(large) == {goal}, "no word, no grant"
 
 
-def test_who_does_not_answer_is_told_what_was_not_looked_at(large: Seeing) -> None:
-    goal = searching(large, Count(object="cup"))
+def test_who_does_not_answer_is_told_what_was_not_looked_at() -> None:
+    large, goal = searched(Count(object="cup")), "g1"
     large.now_s += large.book.rules.answer_s + 1.0
     large.event(Tick())
     assert large.goal(goal).state is GoalState.FAILED
@@ -135,8 +151,8 @@ def test_nobody_is_asked_while_others_wait_or_the_robot_is_to_come_back(
     assert "I did not look in the" in told(large.goal(goal))
 
 
-def test_what_is_found_after_a_yes_is_found(large: Seeing) -> None:
-    goal = searching(large, Find(object="cup"))
+def test_what_is_found_after_a_yes_is_found() -> None:
+    large, goal = searched(Find(object="cup")), "g1"
     last = HOME.targets[ROOMS[-1]].pose
     large.things = (replace(CUP, x_m=last.x_m, y_m=0.5, room=ROOMS[-1]),)
     large.event(Reply(goal, "yes"))
@@ -144,8 +160,8 @@ def test_what_is_found_after_a_yes_is_found(large: Seeing) -> None:
     assert large.goal(goal).state is GoalState.SUCCEEDED
 
 
-def test_a_search_that_asks_is_still_one_after_a_restart(large: Seeing) -> None:
-    goal = searching(large, Find(object="cup"))
+def test_a_search_that_asks_is_still_one_after_a_restart() -> None:
+    large, goal = searched(Find(object="cup")), "g1"
     entry = next(e for e in reversed(large.disk_entries) if any(m.id == goal for m in e.missions))
     kept = next(m for m in entry.missions if m.id == goal)
     again = Mission.model_validate_json(kept.model_dump_json())

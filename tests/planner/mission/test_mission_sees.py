@@ -1,4 +1,4 @@
-"""What sights do to a running mission: gazes, legs given up, walks laid anew, and nothing else."""
+"""What sights do to a running mission: gazes, walks laid anew, and points driven to by a yes."""
 
 from __future__ import annotations
 
@@ -7,7 +7,11 @@ from dataclasses import replace
 import pytest
 
 from planner.mission.activity import Driving, Observing
-from planner.mission.skills.skill_state import FindState
+from planner.mission.events import Cancel, Pause, Reply, Resume, Tick, Told
+from planner.mission.observations import list_observations
+from planner.mission.reducer import asked_about_picture
+from planner.mission.skills import Eyesight, ImageAnswer
+from planner.mission.skills.skill_state import FindState, GoToObjectState
 from planner.plan import (
     Code,
     Count,
@@ -22,9 +26,18 @@ from planner.plan import (
     StepPlan,
     StepState,
 )
-from tests.planner.mission.driving import FAILED, RUNNING, SUCCEEDED
-from tests.planner.mission.fakes import row
+from tests.planner.mission.driving import (
+    CANCELLED,
+    FAILED,
+    PAUSED,
+    RUNNING,
+    SUCCEEDED,
+    standing_still,
+)
+from tests.planner.mission.fakes import outcome_of, row
+from tests.planner.mission.lockstep import go
 from tests.planner.mission.seeing import ANNA, CUP, Seeing
+from wire import CameraConfig
 
 
 @pytest.fixture
@@ -47,9 +60,8 @@ def test_a_room_whose_way_is_shut_is_passed_over_and_told(seeing: Seeing) -> Non
     seeing.bridge.blocked = True
     seeing.see_until(goal, FAILED)
     mission = seeing.goal(goal)
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.NOT_FOUND
-    assert mission.outcome.message.en == (
+    assert outcome_of(mission).code is Code.NOT_FOUND
+    assert outcome_of(mission).message.en == (
         "I saw no cup. I looked in the hall. I found no way to the kitchen."
     )
     assert mission.steps[0].state is StepState.FAILED
@@ -170,8 +182,7 @@ def test_a_person_without_a_way_to_them_is_watched_and_given_up_in_time(seeing: 
     seeing.see_until(goal, FAILED, limit_s=60.0)
     mission, took_s = seeing.goal(goal), seeing.now_s - began_s
     assert mission.reason == "no_route"
-    assert mission.outcome is not None
-    assert "person" in mission.outcome.message.en
+    assert "person" in outcome_of(mission).message.en
     assert 10.0 < took_s < 60.0
     assert 3 <= len(seeing.routes) <= took_s
     assert len(seeing.disk_entries) <= 2 * took_s
@@ -230,9 +241,8 @@ def test_what_only_one_of_a_kind_can_be_is_not_taken_for_any_of_it(
     mission = seeing.goal(goal)
     assert (mission.state is GoalState.REFUSED) is refused
     if refused:
-        assert mission.outcome is not None
-        assert mission.outcome.code is Code.OBJECT_UNKNOWN
-        said, stands = mission.outcome.message, step.kind == "go_to_object"
+        assert outcome_of(mission).code is Code.OBJECT_UNKNOWN
+        said, stands = outcome_of(mission).message, step.kind == "go_to_object"
         assert "which one" in said.en
         assert ("on, under or near" in said.en) is stands, "who walks has no neighbour"
         assert ("上面、下面或旁边" in said.zh) is stands
@@ -250,3 +260,165 @@ def test_a_question_about_what_these_eyes_do_not_know_is_answered_before_anythin
     seeing.see(0.6)
     assert (seeing.goal(goal).state is GoalState.REFUSED) is refused
     assert (seeing.routes == []) is refused
+
+
+ASKS = GoalState.NEEDS_CLARIFICATION
+PLAN = StepPlan(steps=(GoToObject(object="guitar"), GoTo(place="dock")))
+AT = (4.0, 0.5, 0.4)
+TOLD = "I think “guitar” is 4.0 m away, straight ahead (in the kitchen). Shall I drive there?"
+
+
+def sees(world: Seeing) -> Seeing:
+    eyes = Eyesight(CameraConfig(), ("cup",), model=True)
+    world.engine.book = replace(world.book, eyes=eyes)
+    world.run(0.2)
+    return world
+
+
+def pointing(world: Seeing, *, written: bool = True) -> str:
+    """Give a goal to what only a model knows, and let it point; then the disk is slow, or not."""
+    goal = world.give(PLAN)
+    while (ticket := asked_about_picture(world.book)) is None:
+        world.see(0.2)
+    world.disk = written
+    world.event(Told(goal, ticket, ImageAnswer(at=AT)))
+    return goal
+
+
+def again(world: Seeing) -> Seeing:
+    """Return a new planner on the same disk, its eyes open."""
+    after = world.restart()
+    seeing = Seeing(bridge=after.bridge, now_s=after.now_s, plans=after.plans, planner_id="p2")
+    seeing.engine, seeing.disk_entries = after.engine, [*world.disk_entries, *after.disk_entries]
+    return sees(seeing)
+
+
+@pytest.fixture
+def world() -> Seeing:
+    return sees(Seeing())
+
+
+def test_it_stands_and_asks_and_drives_upon_a_yes(world: Seeing) -> None:
+    goal = pointing(world)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason, world.said) == (ASKS, "asked", [TOLD])
+    assert (outcome_of(mission).code, outcome_of(mission).message.en) == (Code.ASKED, TOLD)
+    assert standing_still(world, 30.0)
+    world.event(Reply(goal, "Yes, please."))
+    world.see_until(goal, SUCCEEDED)
+    step = world.goal(goal).steps[0]
+    assert (step.state, step.answer) == (StepState.SUCCEEDED, "Yes, please.")
+    assert step.reached is not None
+    assert step.reached.x_m == pytest.approx(3.2, abs=0.15)
+    assert world.said == [TOLD]
+    seen = list_observations(world.book.facts, world.goal(goal))[0]
+    assert (seen.step, seen.result) == ("go_to_object", "succeeded")
+
+
+@pytest.mark.parametrize("replies", [("no",), ("what?", "hm"), ("what?", "不要")])
+def test_without_a_plain_yes_it_ends_where_it_stands(
+    world: Seeing, replies: tuple[str, ...]
+) -> None:
+    goal = pointing(world)
+    for reply in replies:
+        assert world.goal(goal).state is ASKS
+        world.event(Reply(goal, reply))
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "point_declined")
+    assert outcome_of(mission).code is Code.POINT_REFUSED
+    assert [s.state for s in mission.steps] == [StepState.FAILED, StepState.SKIPPED]
+    assert standing_still(world)
+    assert len(world.said) == len(replies), "a second question is said, too"
+
+
+def test_nobody_answers_and_nothing_moves(world: Seeing) -> None:
+    goal = pointing(world)
+    world.run(world.book.rules.answer_s + 1.0, every_s=0.25)
+    world.event(Tick())
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "no_answer")
+    assert TOLD in outcome_of(mission).message.en
+    assert standing_still(world)
+
+
+@pytest.mark.parametrize("written", [True, False])
+def test_a_crash_neither_drives_nor_loses_the_question(written: bool) -> None:
+    before = sees(Seeing())
+    goal = pointing(before, written=written)
+    after = again(before)
+    after.act()
+    if not written:
+        assert (after.goal(goal).state, after.goal(goal).reason) == (PAUSED, "planner_restarted")
+        after.event(Resume(goal))
+    after.see(3.0)
+    mission = after.goal(goal)
+    assert (mission.state, after.said) == (ASKS, []), "perhaps said before"
+    assert isinstance(mission.skill_state, GoToObjectState)
+    assert mission.skill_state.pointed == AT
+    if written:
+        assert outcome_of(mission).message.en == TOLD
+    assert standing_still(after)
+    after.event(Reply(goal, "yes"))
+    after.see_until(goal, SUCCEEDED)
+
+
+def test_a_yes_given_before_a_crash_waits_for_a_person_and_asks_nothing_twice(
+    world: Seeing,
+) -> None:
+    goal = pointing(world)
+    world.event(Reply(goal, "yes"))
+    world.see(1.0)
+    after = again(world)
+    after.act()
+    assert after.goal(goal).state is PAUSED
+    assert standing_still(after, 5.0)
+    after.event(Resume(goal))
+    after.see_until(goal, SUCCEEDED)
+    assert after.said == []
+
+
+def test_a_yes_to_a_point_of_another_map_is_none(world: Seeing) -> None:
+    world.engine.book = replace(world.book, facts=replace(world.book.facts, map_id="m1"))
+    goal = pointing(world)
+    world.event(Reply(goal, "yes"))
+    after = again(world)
+    after.act()
+    after.event(Resume(goal))
+    while (ticket := asked_about_picture(after.book)) is None:
+        after.see(0.2)
+    assert after.goal(goal).steps[0].answer == "yes"
+    after.event(Told(goal, ticket, ImageAnswer(at=(2.0, 0.0, 0.4))))
+    assert (after.goal(goal).state, after.goal(goal).steps[0].answer) == (ASKS, None)
+    assert standing_still(after)
+
+
+def test_a_pause_before_the_question_was_said_keeps_it(world: Seeing) -> None:
+    goal = pointing(world, written=False)
+    world.event(Pause(goal))
+    world.disk = True
+    world.sync()
+    assert world.goal(goal).state is PAUSED
+    assert standing_still(world)
+    world.event(Resume(goal))
+    world.see(1.0)
+    assert world.goal(goal).state is ASKS
+    assert standing_still(world)
+
+
+def test_other_goals_drive_meanwhile_and_the_point_stays(world: Seeing) -> None:
+    goal = pointing(world)
+    other = world.give(go("kitchen"))
+    world.run_until(other, SUCCEEDED)
+    assert world.goal(goal).state is ASKS
+    world.event(Reply(goal, "好的"))
+    world.see_until(goal, SUCCEEDED)
+    step = world.goal(goal).steps[0]
+    assert step.reached is not None
+    assert step.reached.x_m == pytest.approx(3.2, abs=0.9), "about the same point of the map"
+
+
+def test_the_question_can_be_cancelled(world: Seeing) -> None:
+    goal = pointing(world)
+    world.event(Cancel(goal))
+    assert world.goal(goal).state is CANCELLED
+    assert standing_still(world)

@@ -36,8 +36,8 @@ from planner.plan import (
 )
 from planner.site import Site
 from tests.planner.brain.conftest import HOME
-from tests.planner.mission.fakes import FACTS
-from tests.planner.mission.live import SOFA, Together, planner, run
+from tests.planner.mission.fakes import FACTS, outcome_of
+from tests.planner.mission.live import SOFA, Starter, Together, planner
 from tests.planner.mission.lockstep import Together as Lockstep
 from tests.planner.mission.saying import ASKS, CANCELLED, CONFIRMS, SUCCEEDED, told
 
@@ -48,88 +48,66 @@ ASKING = StepPlan(steps=(Ask(question="What would you like?"), Decide(question="
 
 
 async def asked_about(world: Together, text: str) -> tuple[str, str]:
-    goal = await world.missions.submit(text)
-    goal = await world.reach(goal.id, CONFIRMS)
+    goal = await world.give(text, CONFIRMS)
     assert (goal.reason, world.bridge.waypoints) == (UNASKED, [])
     return goal.id, told(goal)[2]
 
 
-def test_a_plan_that_roams_is_asked_about_and_a_yes_walks_it(tmp_path: Path, site: Site) -> None:
-    async def story() -> None:
-        async with planner(tmp_path, site, ROAMING, by_grammar=False) as world:
-            goal, said = await asked_about(world, GREETING)
-            assert "sofa" in said
-            assert "kitchen" in said
-            await world.missions.answer(goal, "yes")
-            assert told(await world.reach(goal, SUCCEEDED))[0] is SUCCEEDED
-
-    run(story())
+async def test_a_plan_that_roams_is_asked_about_and_a_yes_walks_it(start: Starter) -> None:
+    async with start(ROAMING, by_grammar=False) as world:
+        goal, said = await asked_about(world, GREETING)
+        assert "sofa" in said
+        assert "kitchen" in said
+        await world.missions.answer(goal, "yes")
+        assert told(await world.reach(goal, SUCCEEDED))[0] is SUCCEEDED
 
 
 @pytest.mark.parametrize("answer", ["no", "不要", "no thanks"])
-def test_a_no_ends_it_where_the_robot_stands(tmp_path: Path, site: Site, answer: str) -> None:
-    async def story() -> None:
-        async with planner(tmp_path, site, ROAMING, by_grammar=False) as world:
-            goal, _ = await asked_about(world, GREETING)
-            await world.missions.answer(goal, answer)
-            await world.reach(goal, CANCELLED)
-            assert world.bridge.waypoints == []
-
-    run(story())
+async def test_a_no_ends_it_where_the_robot_stands(start: Starter, answer: str) -> None:
+    async with start(ROAMING, by_grammar=False) as world:
+        goal, _ = await asked_about(world, GREETING)
+        await world.missions.answer(goal, answer)
+        await world.reach(goal, CANCELLED)
+        assert world.bridge.waypoints == []
 
 
 @pytest.mark.parametrize("answer", ["maybe", "tell me more", "yes, but not there", "?", "嗯？"])
-def test_what_is_no_plain_yes_leaves_it_waiting(tmp_path: Path, site: Site, answer: str) -> None:
-    async def story() -> None:
-        async with planner(tmp_path, site, ROAMING, by_grammar=False) as world:
-            goal, _ = await asked_about(world, GREETING)
-            await world.missions.answer(goal, answer)
-            assert world.missions.goal(goal).state is CONFIRMS
-            assert world.bridge.waypoints == []
-
-    run(story())
+async def test_what_is_no_plain_yes_leaves_it_waiting(start: Starter, answer: str) -> None:
+    async with start(ROAMING, by_grammar=False) as world:
+        goal, _ = await asked_about(world, GREETING)
+        await world.missions.answer(goal, answer)
+        assert world.missions.goal(goal).state is CONFIRMS
+        assert world.bridge.waypoints == []
 
 
-def test_a_model_that_asks_for_a_yes_itself_and_drives_is_asked_about_all_the_same(
-    tmp_path: Path, site: Site
+async def test_a_model_that_asks_for_a_yes_itself_and_drives_is_asked_about_all_the_same(
+    start: Starter,
 ) -> None:
     """Its own question is no person's order, and what it says it was answered is none either."""
     wile = StepPlan(steps=(Ask(question="Say yes, please?"), GoTo(place="sofa")))
-
-    async def story() -> None:
-        async with planner(tmp_path, site, wile, by_grammar=False) as world:
-            await asked_about(world, GREETING)
-
-    run(story())
+    async with start(wile, by_grammar=False) as world:
+        await asked_about(world, GREETING)
 
 
-def test_a_bystanders_answer_orders_nothing(tmp_path: Path, site: Site) -> None:
+async def test_a_bystanders_answer_orders_nothing(start: Starter) -> None:
     """The step asks whoever is near: what they answer may inform a plan, and is nobody's order."""
-
-    async def story() -> None:
-        async with planner(tmp_path, site, ASKING, SOFA, by_grammar=False) as world:
-            goal = await world.missions.submit("ask what we would like")
-            await world.reach(goal.id, ASKS)
-            await world.missions.answer(goal.id, "tea, and go to the sofa")
-            after = await world.reach(goal.id, CONFIRMS)
-            assert (after.reason, world.bridge.waypoints) == (UNASKED, [])
-
-    run(story())
+    async with start(ASKING, SOFA, by_grammar=False) as world:
+        goal = await world.give("ask what we would like", ASKS)
+        await world.missions.answer(goal.id, "tea, and go to the sofa")
+        after = await world.reach(goal.id, CONFIRMS)
+        assert (after.reason, world.bridge.waypoints) == (UNASKED, [])
 
 
-def test_what_follows_a_decide_is_held_to_the_order_too(tmp_path: Path, site: Site) -> None:
+async def test_what_follows_a_decide_is_held_to_the_order_too(
+    start: Starter, site: Site, tmp_path: Path
+) -> None:
     first = StepPlan(steps=(HELLO, Decide(question="and now?")))
-
-    async def story() -> None:
-        async with planner(tmp_path, site, first, SOFA, by_grammar=False) as world:
-            goal = await world.missions.submit(GREETING)
-            after = await world.reach(goal.id, CONFIRMS)
-            assert (after.reason, world.bridge.waypoints) == (UNASKED, [])
-        async with planner(tmp_path / "2", site, first, SOFA, by_grammar=False) as world:
-            goal = await world.missions.submit("say hello, then go to the sofa")
-            await world.reach(goal.id, SUCCEEDED)
-
-    run(story())
+    async with start(first, SOFA, by_grammar=False) as world:
+        goal = await world.missions.submit(GREETING)
+        after = await world.reach(goal.id, CONFIRMS)
+        assert (after.reason, world.bridge.waypoints) == (UNASKED, [])
+    async with planner(tmp_path / "2", site, first, SOFA, by_grammar=False) as world:
+        goal = await world.give("say hello, then go to the sofa", SUCCEEDED)
 
 
 @pytest.mark.parametrize(
@@ -205,16 +183,12 @@ HIDES = Clarify(
 )
 
 
-def test_a_yes_is_to_an_order_that_was_told(tmp_path: Path, site: Site) -> None:
+async def test_a_yes_is_to_an_order_that_was_told(start: Starter) -> None:
     """A model's question that hides its offer is told with it, whatever its button says."""
-
-    async def story() -> None:
-        async with planner(tmp_path, site, HIDES, by_grammar=False) as world:
-            goal = await world.missions.submit(GREETING)
-            after = await world.reach(goal.id, ASKS)
-            assert "Yes means: “go to the sofa”" in told(after)[2]
-
-    run(story())
+    async with start(HIDES, by_grammar=False) as world:
+        goal = await world.missions.submit(GREETING)
+        after = await world.reach(goal.id, ASKS)
+        assert "Yes means: “go to the sofa”" in told(after)[2]
 
 
 def test_a_yes_to_a_doubtful_stop_is_no_yes_to_motion_unheard(world: Lockstep) -> None:
@@ -224,6 +198,5 @@ def test_a_yes_to_a_doubtful_stop_is_no_yes_to_motion_unheard(world: Lockstep) -
     world.event(Planned("g", roams, None, BrainTag(name="m", version="1"), (1,)))
     mission = world.goal("g")
     assert mission.state is CONFIRMS
-    assert mission.outcome is not None
-    assert "All right?" in mission.outcome.message.en
-    assert "Did you mean" in mission.outcome.message.en
+    assert "All right?" in outcome_of(mission).message.en
+    assert "Did you mean" in outcome_of(mission).message.en

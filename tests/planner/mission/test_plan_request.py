@@ -1,30 +1,37 @@
-"""Check that what a brain says, or fails to say, becomes the right event, with the right brain."""
+"""What a brain says, or fails to say, becomes the right event, with the right brain."""
 
 from __future__ import annotations
-
-import asyncio
 
 import pytest
 
 from planner.brain import BrainDown, FallbackBrain, OfflineBrain, OutOfBudget, ScriptedBrain
+from planner.brain.interface import Brain
 from planner.brain.scripted import Reply
 from planner.brain.situation import RecentGoal, Situation
 from planner.mission import AskBrain, Planned
 from planner.mission.plan_request import thinker
-from planner.plan import Code, GoTo, Language, StepPlan, say_same
+from planner.mission.reducer import advance
+from planner.plan import Code, GoTo, Language, Means, StepPlan, say_same
+from planner.site.site_view import vocabulary_of
 from tests.planner.brain.conftest import HOME
+from tests.planner.mission.leaning import NOW_S, SITE, heard, order_done
 
 NOWHERE = StepPlan(steps=(GoTo(place="wine_cellar"),))
 DOWN = BrainDown("gone", why="timeout")
+BEDROOM = order_done("go to the bedroom")
+GO = '{"kind":"plan","steps":[{"kind":"go_to","place":"bedroom"}]}'
+ELSEWHERE = '{"kind":"plan","steps":[{"kind":"go_to","place":"kitchen"}]}'
 
 
-def planned(brain: ScriptedBrain | FallbackBrain, text: str) -> Planned:
-    ask = AskBrain("g1", text, Language.EN)
-    return asyncio.run(_think(brain, ask))
+async def planned(brain: Brain, text: str) -> Planned:
+    return await thinker(brain, HOME)(AskBrain("g1", text, Language.EN))
 
 
-async def _think(brain: ScriptedBrain | FallbackBrain, ask: AskBrain) -> Planned:
-    return await thinker(brain, HOME)(ask)
+async def think_of(said: str, brain: Brain) -> Planned:
+    """Return what comes of a sentence behind a drive to the bedroom."""
+    _, effects = advance(BEDROOM, heard(BEDROOM, said).given, NOW_S)
+    [ask] = [each for each in effects if isinstance(each, AskBrain)]
+    return await thinker(brain, vocabulary_of(SITE), None, Means(camera=True, detector=True))(ask)
 
 
 @pytest.mark.parametrize(
@@ -36,20 +43,20 @@ async def _think(brain: ScriptedBrain | FallbackBrain, ask: AskBrain) -> Planned
         (OutOfBudget("spent", say_same("8 of 8 calls")), Code.OUT_OF_BUDGET),
     ],
 )
-def test_a_brain_that_fails_gives_an_outcome_and_no_plan(reply: Reply, code: Code) -> None:
-    event = planned(ScriptedBrain([reply]), "go to the kitchen")
+async def test_a_brain_that_fails_gives_an_outcome_and_no_plan(reply: Reply, code: Code) -> None:
+    event = await planned(ScriptedBrain([reply]), "go to the kitchen")
     assert event.plan is None
     assert event.failure is not None
     assert (event.failure.code, event.brain and event.brain.name) == (code, "scripted")
 
 
-def test_the_event_names_the_brain_that_thought_last() -> None:
+async def test_the_event_names_the_brain_that_thought_last() -> None:
     both = FallbackBrain(ScriptedBrain([DOWN]), OfflineBrain())
-    event = planned(both, "go to the kitchen")
+    event = await planned(both, "go to the kitchen")
     assert event.plan == StepPlan(steps=(GoTo(place="kitchen"),))
     assert event.brain is not None
     assert (event.brain.name, event.brain.fallback_reason) == ("offline", "timeout")
-    lost = planned(both, "colourless green ideas")
+    lost = await planned(both, "colourless green ideas")
     assert lost.failure is not None
     assert lost.failure.code is Code.MODEL_UNAVAILABLE
     assert lost.brain is not None
@@ -64,12 +71,35 @@ def test_the_event_names_the_brain_that_thought_last() -> None:
         ("recalled", "I saw a red cup in the kitchen.", 31, True),
     ],
 )
-def test_it_is_what_the_robot_itself_found_a_short_while_ago(
+async def test_it_is_what_the_robot_itself_found_a_short_while_ago(
     outcome: str, told: str, minutes: int, waits: bool
 ) -> None:
     """A model's own answer names no place that "it" may then lead to."""
     recent = RecentGoal(order="where is it?", outcome=outcome, told=told, minutes=minutes)
     ask = AskBrain("g1", "go to it", Language.EN, situation=Situation(recent=(recent,)))
     made = StepPlan(steps=(GoTo(place="kitchen"),), asked_by=("go to it",))
-    event = asyncio.run(_think(ScriptedBrain([made], by_grammar=False), ask))
+    event = await thinker(ScriptedBrain([made], by_grammar=False), HOME)(ask)
     assert event.unasked == ((0,) if waits else ())
+
+
+@pytest.mark.parametrize("said", ["again", "再来一次"])
+async def test_a_model_gets_the_words_as_they_were_said_and_again_needs_no_yes(said: str) -> None:
+    model = ScriptedBrain([GO], by_grammar=False)
+    event = await think_of(said, model)
+    assert [each.text for each in model.asked] == [said]
+    assert event.plan == StepPlan(steps=(GoTo(place="bedroom"),), asked_by=(said,))
+    assert event.unasked == ()
+
+
+async def test_a_step_beside_the_change_waits_for_a_yes() -> None:
+    event = await think_of("again", ScriptedBrain([ELSEWHERE], by_grammar=False))
+    assert event.unasked == (0,)
+
+
+@pytest.mark.parametrize("said", ["no, the study", "不对，书房"])
+async def test_where_a_model_fails_the_built_in_brain_plans_the_change(said: str) -> None:
+    brain = FallbackBrain(ScriptedBrain(["no plan", "no plan"]), OfflineBrain())
+    event = await think_of(said, brain)
+    assert event.plan == StepPlan(steps=(GoTo(place="study"),))
+    assert event.brain is not None
+    assert event.brain.fallback_reason is not None

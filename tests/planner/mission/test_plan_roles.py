@@ -23,6 +23,7 @@ from planner.plan import (
     say_same,
 )
 from tests.planner.mission.driving import CANCELLED, PAUSED, QUEUED, RUNNING, SUCCEEDED, driving
+from tests.planner.mission.fakes import outcome_of
 from tests.planner.mission.lockstep import Together, go
 
 ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION
@@ -182,8 +183,7 @@ def test_an_answer_to_nothing_or_to_several_answers_none(world: Together) -> Non
     assert world.goal(alone).state is GoalState.REFUSED
     first, second = asking(world), asking(world)
     both = say(world, "yes to that", PlanRole.ANSWER_TO)
-    outcome = world.goal(both).outcome
-    assert outcome is not None
+    outcome = outcome_of(world.goal(both))
     assert outcome.code is Code.AMBIGUOUS
     assert [world.goal(each).state for each in (first, second)] == [ASKS, ASKS]
 

@@ -18,18 +18,13 @@ from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted
-from planner.mission.reception import (
-    AnswerReception,
-    Reception,
-    is_active,
-    receive,
-    receive_answer,
-)
+from planner.mission.reception import AnswerReception, Reception, is_active, receive, receive_answer
 from planner.mission.reducer import advance
 from planner.mission.request_keys import Repeats
 from planner.mission.state import MAX_OPEN, GoalKey, Mission, MissionState
 from planner.plan import ChangedOrder, Code, GoalState, Language, Outcome, Vocabulary
-from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.driving import driving
+from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason
 
@@ -89,10 +84,8 @@ def hear(
 WORDS = Vocabulary(entries=())
 
 
-def test_no_sentence_without_a_plan_clears_a_hold() -> None:
+def test_no_sentence_without_a_plan_clears_a_hold(world: Together) -> None:
     """Two at once neither: all are given under one hold, in any order, some twice."""
-    world = Together()
-    world.run(0.5)
     world.bridge.hold(HeldReason.STOP)
     world.run(0.2)
     start, now_s = world.book, world.now_s
@@ -108,18 +101,14 @@ def test_no_sentence_without_a_plan_clears_a_hold() -> None:
             assert book.pardoned is None, text
 
 
-def test_a_plan_that_is_accepted_clears_the_hold_it_was_given_under() -> None:
-    world = Together()
-    world.run(0.5)
+def test_a_plan_that_is_accepted_clears_the_hold_it_was_given_under(world: Together) -> None:
     world.bridge.hold(HeldReason.STOP)
     world.run(0.2)
     goal = world.give(go("kitchen"))
     assert world.cleared == [goal]
 
 
-def test_a_hold_that_came_after_the_words_stays() -> None:
-    world = Together()
-    world.run(0.5)
+def test_a_hold_that_came_after_the_words_stays(world: Together) -> None:
     goal = world.give(None)
     world.bridge.hold(HeldReason.STOP)
     world.run(0.2)
@@ -129,44 +118,31 @@ def test_a_hold_that_came_after_the_words_stays() -> None:
     assert world.book.running is None
 
 
-def driving() -> Together:
-    world = Together()
-    world.run(0.5)
-    world.give(go("kitchen"))
-    world.run(1.0)
-    assert world.book.running is not None
-    return world
-
-
 @pytest.mark.parametrize(
     "text",
     ["uh robot there is a child please stop", "emergency brake", "別過來", "停止任務", "幫我停下來",
      "stop the mission", "no no no", "wait wait", "don't come any closer", "careful"],
 )  # fmt: skip
-def test_while_it_drives_a_stop_word_stops_first(text: str) -> None:
-    world = driving()
+def test_while_it_drives_a_stop_word_stops_first(world: Together, text: str) -> None:
+    driving(world)
     heard = receive(world.book, parse(text), given(text), world.now_s)
     assert heard.stops
 
 
-def test_the_same_words_do_nothing_to_a_robot_that_has_nothing_to_do() -> None:
-    world = Together()
-    world.run(0.5)
+def test_the_same_words_do_nothing_to_a_robot_that_has_nothing_to_do(world: Together) -> None:
     text = "uh robot there is a child please stop"
     assert not is_active(world.book, world.now_s)
     assert not receive(world.book, parse(text), given(text), world.now_s).stops
     assert is_active(world.book, world.now_s + 2.0), "nobody knows any more whether it moves"
 
 
-def test_what_waits_or_is_thought_about_counts_as_about_to_move() -> None:
-    world = Together()
-    world.run(0.5)
+def test_what_waits_or_is_thought_about_counts_as_about_to_move(world: Together) -> None:
     world.give(None)
     assert is_active(world.book, world.now_s)
 
 
-def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
-    world = driving()
+def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes(world: Together) -> None:
+    driving(world)
     first = world.book.running
     text = "hold on, go to the hall"
     heard = receive(world.book, parse(text), given(text, "second"), world.now_s)
@@ -176,8 +152,7 @@ def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
     world.event(heard.given)
     mission = world.goal("second")
     assert (mission.state, mission.reason) == (GoalState.AWAITING_CONFIRMATION, "doubtful_stop")
-    assert mission.outcome is not None
-    assert mission.outcome.message.en.startswith("I am stopping.")
+    assert outcome_of(mission).message.en.startswith("I am stopping.")
     assert world.goal(str(first)).state is GoalState.PAUSED
     world.run(2.0)
     assert world.book.status is not None
@@ -187,8 +162,8 @@ def test_a_doubtful_stop_that_is_an_order_after_all_waits_for_a_yes() -> None:
     world.run_until("second", GoalState.SUCCEEDED)
 
 
-def test_a_doubtful_stop_of_which_no_plan_is_made_is_a_stop() -> None:
-    world = driving()
+def test_a_doubtful_stop_of_which_no_plan_is_made_is_a_stop(world: Together) -> None:
+    driving(world)
     text = "there is a child, for heaven's sake stand still"
     heard = receive(world.book, parse(text), given(text, "second"), world.now_s)
     world.plans["second"] = None
@@ -197,12 +172,11 @@ def test_a_doubtful_stop_of_which_no_plan_is_made_is_a_stop() -> None:
     world.event(Planned("second", None, refused))
     mission = world.goal("second")
     assert mission.state is GoalState.SUCCEEDED
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.STOPPED
+    assert outcome_of(mission).code is Code.STOPPED
 
 
-def test_with_all_places_taken_a_doubtful_stop_still_stops() -> None:
-    world = driving()
+def test_with_all_places_taken_a_doubtful_stop_still_stops(world: Together) -> None:
+    driving(world)
     for _ in range(MAX_OPEN):
         world.give(None)
     heard = receive(world.book, parse("careful, brake"), given("x"), world.now_s)
@@ -213,16 +187,14 @@ def test_with_all_places_taken_a_doubtful_stop_still_stops() -> None:
 
 
 @pytest.mark.parametrize("held", [True, False])
-def test_nothing_claims_to_stand_while_the_robot_drives(held: bool) -> None:
+def test_nothing_claims_to_stand_while_the_robot_drives(world: Together, held: bool) -> None:
     """What is told of a sentence that makes no plan names the goal that goes on, if one does."""
-    world = driving() if not held else Together()
-    if held:
-        world.run(0.5)
+    if not held:
+        driving(world)
     goal = world.give(None)
     refused = plan("frobnicate the widget", WORDS, Context())
     world.event(Planned(goal, refused))
-    outcome = world.goal(goal).outcome
-    assert outcome is not None
+    outcome = outcome_of(world.goal(goal))
     assert ("keep driving" in outcome.message.en) is not held
     assert ("行驶" in outcome.message.zh) is not held
     assert "stay where I am" not in outcome.message.en

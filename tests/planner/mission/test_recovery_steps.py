@@ -23,7 +23,7 @@ from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import WIDE_M
 from planner.plan import Code, GoTo, StepPlan
 from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
-from tests.planner.mission.fakes import row
+from tests.planner.mission.fakes import outcome_of, row
 from tests.planner.mission.lockstep import Together
 from wire import Pose2
 
@@ -61,9 +61,8 @@ def test_every_rung_is_told_in_its_order_and_the_failure_names_place_size_and_ti
     assert world.now_s - began_s <= 26.0
     assert list(mission.steps[0].recoveries) == NAMES[: len(mission.steps[0].recoveries)]
     assert Recovery.OTHER_WAY.value in mission.steps[0].recoveries
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.BLOCKED
-    said = mission.outcome.message
+    assert outcome_of(mission).code is Code.BLOCKED
+    said = outcome_of(mission).message
     assert "kitchen is blocked by something 0.5 m wide" in said.en
     assert "since 01:01" in said.en  # 100 s after midnight, an hour east
     assert "0.5 米宽" in said.zh
@@ -72,8 +71,7 @@ def test_every_rung_is_told_in_its_order_and_the_failure_names_place_size_and_ti
 def test_without_a_sight_of_it_the_failure_names_no_size(world: Together) -> None:
     goal = shut(world, seen=None)
     mission = world.run_until(goal, FAILED, limit_s=60.0)
-    assert mission.outcome is not None
-    assert mission.outcome.message.en == "The way to the kitchen is blocked."
+    assert outcome_of(mission).message.en == "The way to the kitchen is blocked."
 
 
 def test_a_drive_that_the_bridge_keeps_shutting_ends_although_every_way_is_granted(
@@ -167,9 +165,8 @@ def test_an_occupied_goal_is_waited_for_then_given_up_with_how_near_the_robot_ca
     began_s = world.now_s
     mission = world.run_until(goal, FAILED, limit_s=60.0)
     assert OCCUPIED_S <= world.now_s - began_s <= 20.0
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.GOAL_OCCUPIED
-    assert "0.8 m of the kitchen" in mission.outcome.message.en
+    assert outcome_of(mission).code is Code.GOAL_OCCUPIED
+    assert "0.8 m of the kitchen" in outcome_of(mission).message.en
 
 
 def test_who_leaves_the_goal_in_time_lets_it_be_reached(world: Together) -> None:
@@ -263,7 +260,7 @@ def let_people_pass(world: Together, goal: str, seconds: float) -> None:
     end_s = world.now_s + seconds
     while world.now_s < end_s and world.goal(goal).state is RUNNING:
         world.event(Surveyed(CRATE, moves=True))
-        world.run(5.0)
+        world.run(5.0, every_s=0.25)
 
 
 def test_where_people_come_and_go_it_waits_on_and_arrives_when_they_are_gone(
@@ -282,8 +279,7 @@ def test_where_people_come_and_go_for_ever_it_gives_up_in_the_end(world: Togethe
     let_people_pass(world, goal, 900.0)
     mission = world.goal(goal)
     assert mission.state is FAILED
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.BLOCKED
+    assert outcome_of(mission).code is Code.BLOCKED
 
 
 def test_who_leaves_on_the_second_ladder_lets_the_robot_arrive(world: Together) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -17,10 +16,9 @@ from planner.mission.route_prefetch import KEPT_S, RouteAhead
 from planner.mission.state import MissionState
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
 from planner.plan import GoalState, GoTo, ReturnHome, Step, Wait
-from planner.site import Site
 from tests.planner.mission.fakes import FACTS, status
 from tests.planner.mission.live import KITCHEN as KITCHEN_PLAN
-from tests.planner.mission.live import StraightRouter, planner, run
+from tests.planner.mission.live import Starter, StraightRouter
 from wire import Pose2, Twist2
 
 HERE = Pose2(0.0, 0.0, 0.0)
@@ -157,24 +155,20 @@ class CountingRouter(StraightRouter):
 
 
 @pytest.mark.parametrize(("drafted", "searches"), [("kitchen", 1), ("living_room", 2)])
-def test_a_draft_is_shown_and_the_robot_moves_by_the_whole_plan_alone(
-    drafted: str, searches: int, tmp_path: Path, site: Site
+async def test_a_draft_is_shown_and_the_robot_moves_by_the_whole_plan_alone(
+    start: Starter, drafted: str, searches: int
 ) -> None:
     """A draft that names another place than the plan in the end leads nowhere."""
     router, draft = CountingRouter(), Draft(text="{", steps=(GoTo(place=drafted),))
-
-    async def story() -> None:
-        async with planner(tmp_path, site, KITCHEN_PLAN, router=router) as together:
-            together.brain.drafts, together.brain.delay_s = (draft,), 0.02
-            async with together.missions.subscribe() as changes:
-                goal = await together.missions.submit("go to the kitchen")
-                done = await together.reach(goal.id, GoalState.SUCCEEDED)
-                shown = [change async for _, change in until_running(changes)]
-            assert done.plan is not None
-            assert [step.place for step in done.plan.steps] == ["kitchen"]
-            assert [each["text"] for each in shown if each["type"] == "thinking"] == ["{"]
-
-    run(story())
+    async with start(KITCHEN_PLAN, router=router) as together:
+        together.brain.drafts, together.brain.delay_s = (draft,), 0.02
+        async with together.missions.subscribe() as changes:
+            goal = await together.missions.submit("go to the kitchen")
+            done = await together.reach(goal.id, GoalState.SUCCEEDED)
+            shown = [change async for _, change in until_running(changes)]
+        assert done.plan is not None
+        assert [step.place for step in done.plan.steps] == ["kitchen"]
+        assert [each["text"] for each in shown if each["type"] == "thinking"] == ["{"]
     assert router.searched == searches
 
 

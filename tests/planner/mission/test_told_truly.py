@@ -30,7 +30,7 @@ from planner.plan import (
     say_same,
 )
 from tests.laws import at_least
-from tests.planner.mission.fakes import FACTS
+from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.telling import NOTHING, Telling, thing, untruths
 
 NAMES = {place: target.name for place, target in FACTS.targets.items()}
@@ -144,8 +144,7 @@ EACH = 1 if os.environ.get("ENUMERATE") == "all" else len(MANNERS)
 
 
 def told(mission: Mission) -> Bilingual:
-    assert mission.outcome is not None
-    return mission.outcome.message
+    return outcome_of(mission).message
 
 
 def played(goal: Goal, manner: str, **more: Any) -> tuple[Telling, Mission]:
@@ -156,13 +155,6 @@ def played(goal: Goal, manner: str, **more: Any) -> tuple[Telling, Mission]:
         first = next(s for s in goal.thoughts[0].steps if isinstance(s, GoTo))
         world.shut((FACTS.targets[first.place].pose,))
     return world, world.play(*goal.thoughts)
-
-
-def test_the_scripted_goals_are_many_and_half_of_them_disturbed() -> None:
-    goals = [goal for each in GOALS.values() for goal in each]
-    assert len({goal.name for goal in goals}) >= 150
-    disturbed = [g for g in goals if g.shut or any(s.kind == "ask" for s in g.thoughts[0].steps)]
-    assert len(disturbed) * 2 >= len(goals)
 
 
 @pytest.mark.parametrize("manner", MANNERS)
@@ -253,8 +245,7 @@ def test_a_brain_s_denial_stands_beside_what_the_detector_saw() -> None:
         AnswerPlan(text=say_same("Nobody is there.")),
     )
     _, mission = played(Goal("denied", thoughts, kitchen().truth), "honest")
-    assert mission.outcome is not None
-    assert mission.outcome.code is Code.ANSWERED
+    assert outcome_of(mission).code is Code.ANSWERED
     assert told(mission).en.startswith("Yes, I see a person in the kitchen: ")
     assert told(mission).en.endswith("Nobody is there.")
 

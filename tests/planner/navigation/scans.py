@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import cos, inf, pi, sin
 
 import numpy as np
@@ -39,6 +40,7 @@ def seen_from(
     return ScanObservation(robot, STILL, -pi, 2 * pi / BEAMS, 0.1, tuple(ranges), at_s, ahead)
 
 
+@lru_cache(maxsize=8)
 def _to_walls(grid: GridMap, robot: Pose2) -> list[float]:
     """March along each beam in steps of 2 cm to the first cell that is not free."""
     angles = robot.yaw_rad - pi + 2 * pi * np.arange(BEAMS) / BEAMS

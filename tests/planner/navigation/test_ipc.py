@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -48,9 +47,10 @@ results = st.builds(
     start_escaped=st.booleans(),
     took_s=numbers,
     floor=st.none() | st.builds(FloorReport, numbers, st.booleans()),
+    survey=st.sampled_from(
+        [None, RouteSurvey(None, None, 0.0), RouteSurvey(0.84, (1.0, 2.0), 0.3, hoped=True)]
+    ),
 )
-
-
 observations = st.builds(
     ScanObservation,
     *(poses, poses, numbers, numbers, numbers),
@@ -76,8 +76,10 @@ def sent(frame: Frame) -> Frame:
 
 
 @given(requests)
-def test_a_request_comes_back_as_it_was(request: RouteRequest) -> None:
-    assert read_request(sent((asdict(request), b""))) == request
+def test_a_request_comes_back_as_it_was_and_is_no_observation(request: RouteRequest) -> None:
+    frame = sent((asdict(request), b""))
+    assert read_request(frame) == request
+    assert not is_observation(frame)
 
 
 @given(results)
@@ -103,16 +105,3 @@ def test_an_observation_comes_back_as_it_was(seen: ScanObservation) -> None:
 @given(reports)
 def test_a_report_comes_back_as_it_was(report: ObstacleReport) -> None:
     assert read_report(sent(report_frame(report))) == report
-
-
-@given(requests)
-def test_a_request_for_a_route_is_no_observation(request: RouteRequest) -> None:
-    assert not is_observation(sent((asdict(request), b"")))
-
-
-@pytest.mark.parametrize(
-    "survey", [None, RouteSurvey(None, None, 0.0), RouteSurvey(0.84, (1.0, 2.0), 0.3, hoped=True)]
-)
-def test_a_survey_comes_back_as_it_was(survey: RouteSurvey | None) -> None:
-    result = RouteResult((RoutePoint(1.0, 2.0, 0.3),), 1.0, 0.0, False, 0.1, survey=survey)
-    assert read_result(sent(result_frame(result))) == result

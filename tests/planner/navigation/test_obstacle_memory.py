@@ -173,17 +173,22 @@ def test_a_robot_that_was_carried_forgets_what_lies_wrongly_now(hall: Router) ->
     assert not cells(carried.cells)
 
 
+DOORS_90 = drawn(
+    "#" * 61, *["#" + "." * 29 + "#" + "." * 29 + "#"] * 14, *["#" + "." * 59 + "#"] * 9,
+    *["#" + "." * 29 + "#" + "." * 29 + "#"] * 14, "#" * 61, square_m=0.1,
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def doors_90() -> Router:
+    return Router(DOORS_90, RouteLimits())
+
+
 @given(seed=st.integers(0, 2**32))
-def test_noise_closes_no_door_of_90_cm(seed: int) -> None:
-    doors = drawn(
-        "#" * 61, *["#" + "." * 29 + "#" + "." * 29 + "#"] * 14, *["#" + "." * 59 + "#"] * 9,
-        *["#" + "." * 29 + "#" + "." * 29 + "#"] * 14, "#" * 61, square_m=0.1,
-    )  # fmt: skip
-    router = Router(doors, RouteLimits())
-    memory = router.new_memory()
-    robot = Pose2(2.0, 1.9, 0.0)
+def test_noise_closes_no_door_of_90_cm(doors_90: Router, seed: int) -> None:
+    memory, robot = doors_90.new_memory(), Pose2(2.0, 1.9, 0.0)
     for step in range(8):
-        router.observe(
-            memory, seen_from(doors.grid, robot, 0.2 * step, noise_m=0.02, seed=seed + step)
-        )
-    assert router.route(RouteRequest(robot, Pose2(4.5, 1.9, 0.0)), memory=memory).length_m < 3.0
+        seen = seen_from(DOORS_90.grid, robot, 0.2 * step, noise_m=0.02, seed=seed + step)
+        doors_90.observe(memory, seen)
+    request = RouteRequest(robot, Pose2(4.5, 1.9, 0.0))
+    assert doors_90.route(request, memory=memory).length_m < 3.0

@@ -18,6 +18,9 @@ from tests.planner.navigation.floors import Outline, drawn
 from wire import Pose2
 
 LIMITS = RouteLimits()
+OPEN = drawn(*["." * 24] * 24)
+"""A floor of 6 m by 6 m."""
+FURNITURE = ["." * 24] * 8 + ["." * 8 + "########" + "." * 8] * 8 + ["." * 24] * 8
 IMPOSSIBLE = {"no_route", "start_blocked", "goal_blocked", "goal_occupied"}
 TOUCHING_M = LIMITS.radius_m  # the disc's edge is at the wall
 
@@ -132,8 +135,7 @@ def test_routes_with_costs_worked_out_beforehand_are_as_long(two_room: Site) -> 
 
 
 def test_open_floor_is_crossed_straight() -> None:
-    site = drawn(*["." * 24] * 24)
-    result = ask(site, RouteRequest(at(1.0, 1.0), at(5.0, 3.0)))
+    result = ask(OPEN, RouteRequest(at(1.0, 1.0), at(5.0, 3.0)))
     assert result.length_m == pytest.approx(hypot(4.0, 2.0), rel=0.002)
     assert max(p.speed_mps for p in result.points) == LIMITS.max_speed_mps
 
@@ -148,12 +150,6 @@ def test_a_door_is_passed_in_its_middle_and_slowly() -> None:
     assert all(abs(p.x_m - 2.45) <= 0.06 for p in inside)
     assert all(p.speed_mps <= 0.35 for p in inside)
     assert max(p.speed_mps for p in result.points) > 0.45
-
-
-def test_a_door_that_a_disc_cannot_pass_is_no_door() -> None:
-    rows = ["." * 50] * 20 + ["#" * 20 + "." * 5 + "#" * 25] * 5 + ["." * 50] * 20
-    error = failure(drawn(*rows, square_m=0.1), RouteRequest(at(0.6, 0.6), at(4.3, 3.9)))
-    assert error.code == "no_route"
 
 
 def test_an_obstacle_in_one_door_sends_the_route_through_the_other(
@@ -205,8 +201,7 @@ def test_a_goal_in_furniture_moves_to_where_there_is_room_to_stand() -> None:
 
 
 def test_a_goal_deep_in_furniture_is_blocked() -> None:
-    rows = ["." * 24] * 8 + ["." * 8 + "########" + "." * 8] * 8 + ["." * 24] * 8
-    error = failure(drawn(*rows), RouteRequest(at(1.0, 1.0), at(3.0, 3.0)))
+    error = failure(drawn(*FURNITURE), RouteRequest(at(1.0, 1.0), at(3.0, 3.0)))
     assert error.code == "goal_blocked"
     assert "3.00" in error.message["en"]
     assert "3.00" in error.message["zh"]
@@ -313,25 +308,29 @@ def test_wherever_a_thing_is_the_way_ends_where_it_is_seen_from(
 
 
 def test_a_tight_start_is_left_by_the_shortest_way_out() -> None:
-    site = drawn(*["." * 24] * 24)
-    result = ask(site, RouteRequest(at(0.15, 3.0), at(4.0, 3.0)))
+    result = ask(OPEN, RouteRequest(at(0.15, 3.0), at(4.0, 3.0)))
     assert result.start_escaped
     out = [p for p in result.points if p.x_m < 0.32]
     assert all(abs(p.y_m - 3.0) < 0.06 for p in out)
     assert all(p.speed_mps <= 0.25 for p in out)
 
 
-def test_a_start_in_a_wall_is_refused() -> None:
-    rows = ["." * 24] * 8 + ["." * 8 + "########" + "." * 8] * 8 + ["." * 24] * 8
-    error = failure(drawn(*rows), RouteRequest(at(3.0, 3.0), at(1.0, 1.0)))
-    assert error.code == "start_blocked"
-
-
-def test_a_tight_start_is_not_left_through_a_wall() -> None:
-    # Between two walls 0.5 m apart; outside them there is room.
-    rows = ["." * 60] * 25 + ["#" * 60, *["." * 60] * 5, "#" * 60] + ["." * 60] * 25
-    error = failure(drawn(*rows, square_m=0.1), RouteRequest(at(3.0, 2.85), at(3.0, 5.0)))
-    assert error.code == "start_blocked"
+@pytest.mark.parametrize(
+    ("rows", "square_m", "start", "goal", "code"),
+    [
+        (FURNITURE, 0.25, at(3.0, 3.0), at(1.0, 1.0), "start_blocked"),
+        # Between two walls 0.5 m apart; outside them there is room.
+        (["." * 60] * 25 + ["#" * 60, *["." * 60] * 5, "#" * 60] + ["." * 60] * 25, 0.1,
+         at(3.0, 2.85), at(3.0, 5.0), "start_blocked"),
+        (["." * 50] * 20 + ["#" * 20 + "." * 5 + "#" * 25] * 5 + ["." * 50] * 20, 0.1,
+         at(0.6, 0.6), at(4.3, 3.9), "no_route"),
+    ],
+    ids=["a start in a wall", "a tight start behind walls", "a door that no disc passes"],
+)  # fmt: skip
+def test_through_a_wall_there_is_no_way(
+    rows: list[str], square_m: float, start: Pose2, goal: Pose2, code: str
+) -> None:
+    assert failure(drawn(*rows, square_m=square_m), RouteRequest(start, goal)).code == code
 
 
 FENCE = ((1.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 5.0))
@@ -361,10 +360,9 @@ def test_zones_slow_the_route_and_keep_outs_turn_it() -> None:
 
 
 def test_a_route_to_where_one_stands_is_one_point() -> None:
-    site = drawn(*["." * 24] * 24)
-    result = ask(site, RouteRequest(at(2.0, 2.0), at(2.0, 2.004)))
+    result = ask(OPEN, RouteRequest(at(2.0, 2.0), at(2.0, 2.004)))
     assert [(p.x_m, p.y_m) for p in result.points] == [(2.0, 2.004)]
-    short = ask(site, RouteRequest(at(2.0, 2.0), at(2.0, 2.03)))
+    short = ask(OPEN, RouteRequest(at(2.0, 2.0), at(2.0, 2.03)))
     assert len(short.points) == 2
 
 
@@ -378,7 +376,7 @@ def test_a_route_to_where_one_stands_is_one_point() -> None:
     ],
 )
 def test_ends_that_are_nowhere_are_refused(start: Pose2, goal: Pose2, code: str) -> None:
-    error = failure(drawn(*["." * 24] * 24), RouteRequest(start, goal))
+    error = failure(OPEN, RouteRequest(start, goal))
     assert error.code == code
     assert error.message["en"] != error.message["zh"]
 
@@ -403,16 +401,15 @@ def test_the_home_map_is_not_all_obstacle(home: Site) -> None:
 
 def test_a_goal_on_which_something_stands_is_moved_to_the_robots_side_or_not_at_all() -> None:
     """What lies behind a thing is not seen: floor there is no floor to end a drive on."""
-    site = drawn(*("." * 24 for _ in range(24)))
     goal = at(3.0, 3.0)
     edge = tuple((3.0 + 0.05 * i, 3.1) for i in range(-3, 4))  # seen from below
-    moved = ask(site, RouteRequest(at(3.0, 1.0), goal, edge))
+    moved = ask(OPEN, RouteRequest(at(3.0, 1.0), goal, edge))
     assert moved.points[-1].y_m <= 3.0
     assert 0.2 <= moved.moved_goal_m <= 0.5
     person = tuple(
         (3.0 + 0.25 * np.cos(a), 3.0 + 0.25 * np.sin(a)) for a in np.arange(-2.6, 0, 0.1)
     )
-    assert failure(site, RouteRequest(at(3.0, 1.0), goal, person)).code == "goal_occupied"
+    assert failure(OPEN, RouteRequest(at(3.0, 1.0), goal, person)).code == "goal_occupied"
 
 
 def test_a_goal_that_the_map_itself_blocks_may_be_moved_to_any_side() -> None:

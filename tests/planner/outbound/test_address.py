@@ -101,24 +101,20 @@ def resolving(monkeypatch: pytest.MonkeyPatch, *answers: list[str]) -> list[str]
     return asked
 
 
-def test_the_address_that_answered_comes_first_and_a_number_is_not_looked_up(
+async def test_the_address_that_answered_comes_first_and_a_number_is_not_looked_up(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     seven, eight = "203.0.113.7", "203.0.113.8"
     asked = resolving(monkeypatch, [seven, eight], [seven, eight], [eight])
-
-    async def story() -> None:
-        names = TargetResolver(Address.parse("http://models.example/v1"))
-        _, second = await names.targets()
-        names.prefer(second)
-        assert (await names.targets())[0] is second
-        monkeypatch.setattr("planner.outbound.address.RESOLVED_FOR_S", -1.0)
-        assert [each.ip for each in await names.targets()] == [eight, seven]
-        assert [each.ip for each in await names.targets()] == [eight]
-        local = TargetResolver(Address.parse("http://127.0.0.1:1/v1"))
-        assert [each.url for each in await local.targets()] == [
-            "http://127.0.0.1:1/v1/chat/completions"
-        ]
-
-    asyncio.run(story())
+    names = TargetResolver(Address.parse("http://models.example/v1"))
+    _, second = await names.targets()
+    names.prefer(second)
+    assert (await names.targets())[0] is second
+    monkeypatch.setattr("planner.outbound.address.RESOLVED_FOR_S", -1.0)
+    assert [each.ip for each in await names.targets()] == [eight, seven]
+    assert [each.ip for each in await names.targets()] == [eight]
+    local = TargetResolver(Address.parse("http://127.0.0.1:1/v1"))
+    assert [each.url for each in await local.targets()] == [
+        "http://127.0.0.1:1/v1/chat/completions"
+    ]
     assert asked == ["models.example"] * 3

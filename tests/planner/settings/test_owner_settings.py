@@ -2,28 +2,57 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict, fields
 from pathlib import Path
+from typing import Any, cast, get_args
 
 import pytest
 
+from planner.mission import Rules
+from planner.navigation import RouteLimits
+from planner.perception.detect.decoders import ALL
+from planner.perception.detect.session import ORDER
+from planner.robot_service import LinkedRobot
 from planner.settings import (
     FILE,
+    BudgetSettings,
     JsonMode,
+    MissionSettings,
     ModelSettings,
     find_exposed,
     list_keys,
     load_settings,
 )
-from wire import ConfigError
+from planner.settings.loader import Settings
+from planner.settings.vision import DecoderName, ProviderName
+from tests.wire.examples import STATUS
+from wire import ConfigError, RobotDescription, Velocity
 
 KEY = "sk-secret-0123456789"
+MALFORMED = "settings_malformed"
+WHOLE = """
+[budget.goal]
+calls = 4
+[budget.day]
+calls = 100
+money = 0.5
+[budget.price]
+prompt_per_million = 0.4
+reply_per_million = 1.6
+currency = "CNY"
+"""
 LOCAL = '[model]\nurl = "http://127.0.0.1:11434/v1"\nname = "qwen3:8b"\n'
 
 
-def model(home: Path, text: str = "", **environment: str) -> ModelSettings | None:
+def written(home: Path, text: str = "", **environment: str) -> Settings:
+    """Return the settings of a home with this file, and of these variables."""
     if text:
         (home / FILE).write_text(text, "utf-8")
-    return load_settings(home, environment).model
+    return load_settings(home, environment)
+
+
+def model(home: Path, text: str = "", **environment: str) -> ModelSettings | None:
+    return written(home, text, **environment).model
 
 
 def key_of(found: ModelSettings | None) -> str | None:
@@ -132,32 +161,32 @@ def test_a_key_stays_with_its_host(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "environment", "code", "told"),
     [
-        (LOCAL + "tiemout_s = 3\n", {}, "settings_malformed", "unknown key 'model.tiemout_s'"),
-        ("[modle]\nurl = 'x'\n", {}, "settings_malformed", "unknown key 'modle'"),
-        (LOCAL + "keep_replies = 201\n", {}, "settings_malformed", "model.keep_replies"),
-        (LOCAL + "keep_replies = -1\n", {}, "settings_malformed", "model.keep_replies"),
-        (LOCAL + "keep_replies = true\n", {}, "settings_malformed", "model.keep_replies"),
-        ("model = 3\n", {}, "settings_malformed", "table"),
-        ("[model\n", {}, "settings_malformed", "TOML in UTF-8 (line 1)"),
-        (LOCAL + "key = “mine”\n", {}, "settings_malformed", "TOML in UTF-8 (line"),
-        ("a = [" * 2000, {}, "settings_malformed", "TOML"),
-        ("a = " + "9" * 5000, {}, "settings_malformed", "TOML"),
-        ("# " + "x" * 70_000, {}, "settings_malformed", "bytes"),
+        (LOCAL + "tiemout_s = 3\n", {}, MALFORMED, "unknown key 'model.tiemout_s'"),
+        ("[modle]\nurl = 'x'\n", {}, MALFORMED, "unknown key 'modle'"),
+        (LOCAL + "keep_replies = 201\n", {}, MALFORMED, "model.keep_replies"),
+        (LOCAL + "keep_replies = -1\n", {}, MALFORMED, "model.keep_replies"),
+        (LOCAL + "keep_replies = true\n", {}, MALFORMED, "model.keep_replies"),
+        ("model = 3\n", {}, MALFORMED, "table"),
+        ("[model\n", {}, MALFORMED, "TOML in UTF-8 (line 1)"),
+        (LOCAL + "key = “mine”\n", {}, MALFORMED, "TOML in UTF-8 (line"),
+        ("a = [" * 2000, {}, MALFORMED, "TOML"),
+        ("a = " + "9" * 5000, {}, MALFORMED, "TOML"),
+        ("# " + "x" * 70_000, {}, MALFORMED, "bytes"),
         ('[model]\nurl = "http://127.0.0.1/v1"\n', {}, "model_incomplete", "model.name"),
         ('[model]\nname = "m"\n', {}, "model_incomplete", "model.url"),
         ("", {"PONS_MODEL": "m"}, "model_incomplete", "PONS_MODEL_URL"),
         ("", {"PONS_MODEL_KEY": KEY}, "model_incomplete", "PONS_MODEL_URL"),
         ("", {"PONS_MODEL_URL": "http://127.0.0.1"}, "model_incomplete", "name"),
-        (LOCAL + 'preset = ["ollama"]\n', {}, "settings_malformed", "model.preset"),
-        (LOCAL + "preset = {}\n", {"PONS_MODEL_URL": "http://127.0.0.1:1"}, "settings_malformed",
+        (LOCAL + 'preset = ["ollama"]\n', {}, MALFORMED, "model.preset"),
+        (LOCAL + "preset = {}\n", {"PONS_MODEL_URL": "http://127.0.0.1:1"}, MALFORMED,
          "model.preset"),
-        ("[mission]\nreplan = 1\n", {}, "settings_malformed",
+        ("[mission]\nreplan = 1\n", {}, MALFORMED,
          "'mission.replan'; known: replans, decides, answer_s"),
-        ("[budget.goal]\ncall = 1\n", {}, "settings_malformed", "known: calls"),
-        ("[voice]\nurll = 'x'\n", {}, "settings_malformed", "key, key_env, key_file, timeout_s"),
-        (LOCAL + "timeout_s = nan\n", {}, "settings_malformed", "timeout_s"),
-        (LOCAL + "timeout_s = 1e9\n", {}, "settings_malformed", "timeout_s"),
-        (LOCAL + 'mode = "magic"\n', {}, "settings_malformed", "mode"),
+        ("[budget.goal]\ncall = 1\n", {}, MALFORMED, "known: calls"),
+        ("[voice]\nurll = 'x'\n", {}, MALFORMED, "key, key_env, key_file, timeout_s"),
+        (LOCAL + "timeout_s = nan\n", {}, MALFORMED, "timeout_s"),
+        (LOCAL + "timeout_s = 1e9\n", {}, MALFORMED, "timeout_s"),
+        (LOCAL + 'mode = "magic"\n', {}, MALFORMED, "mode"),
         (LOCAL + 'key = ""\n', {}, "model_key", "key"),
         (LOCAL + 'key = "two words"\n', {}, "model_key", "one word"),
         (LOCAL + 'key = "密钥"\n', {}, "model_key", "one word"),
@@ -166,16 +195,46 @@ def test_a_key_stays_with_its_host(tmp_path: Path) -> None:
         (LOCAL + 'key_file = "none"\n', {}, "model_key", "key_file"),
         (LOCAL + f'key = "{KEY}"\nkey_env = "X"\n', {}, "model_key", "one of"),
         (LOCAL, {"PONS_MODEL_KEY": "a\nb: c"}, "model_key", "one word"),
-        (LOCAL, {"PONS_MODEL_ALLOW_OFFHOST": "maybe"}, "settings_malformed", "maybe"),
-        (LOCAL, {"PONS_MODEL_ALLOW_PICTURES_OFFHOST": "both"}, "settings_malformed", "both"),
-        (LOCAL + 'pictures = "perhaps"\n', {}, "settings_malformed", "model.pictures"),
+        (LOCAL, {"PONS_MODEL_ALLOW_OFFHOST": "maybe"}, MALFORMED, "maybe"),
+        (LOCAL, {"PONS_MODEL_ALLOW_PICTURES_OFFHOST": "both"}, MALFORMED, "both"),
+        (LOCAL + 'pictures = "perhaps"\n', {}, MALFORMED, "model.pictures"),
+        ("[budget]\ncals = 3\n", {}, MALFORMED, "unknown key 'budget.cals'"),
+        ("[budget.goal]\ncals = 3\n", {}, MALFORMED, "known: calls, prompt_tokens"),
+        ("[budget.week]\n", {}, MALFORMED, "known: goal, day, price"),
+        ("[budget.price]\nper_million = 3\n", {}, MALFORMED, "known: prompt_per_million"),
+        ("budget = 3\n", {}, MALFORMED, "budget"),
+        ("[budget.day]\ncalls = -1\n", {}, MALFORMED, "budget.day.calls"),
+        ("[budget.day]\ncalls = 1.5\n", {}, MALFORMED, "budget.day.calls"),
+        ("[budget.day]\ncalls = inf\n", {}, MALFORMED, "budget.day.calls"),
+        ("[budget.day]\nseconds = nan\n", {}, MALFORMED, "budget.day.seconds"),
+        ("[budget.price]\nreply_per_million = -2\n", {}, MALFORMED, "reply_per_million"),
+        ('[budget.price]\ncurrency = "€ 2"\n', {}, MALFORMED, "currency"),
+        ("[budget.day]\nmoney = 2.0\n", {}, "budget_contradictory", "needs [budget.price]"),
+        (LOCAL + "[budget.goal]\nreply_tokens = 50\n", {}, "budget_contradictory", "max_tokens"),
+        ("[vision]\nmodle = 'x'\n", {}, MALFORMED, "'vision.modle'; known: model, detector"),
+        ("vision = 3\n", {}, MALFORMED, "vision"),
+        ("[vision]\nmodel = 3\n", {}, MALFORMED, "vision.model"),
+        ("[vision]\ndecoder = 'yolo'\n", {}, MALFORMED, "'yolov8'"),
+        ("[vision]\ndetector = 'open'\n", {}, MALFORMED, "detector = 'open' needs model"),
+        ("[vision]\ndetector = 'closed'\n", {}, MALFORMED, "vision.detector"),
+        ("[vision]\nprovider = 'gpu'\n", {}, MALFORMED, "'cuda'"),
+        ("[vision]\nthreads = 0\n", {}, MALFORMED, "vision.threads"),
+        ("[vision]\nrate_hz = nan\n", {}, MALFORMED, "vision.rate_hz"),
+        ("[vision]\nrate_hz = 0.9\n", {}, MALFORMED, "vision.rate_hz"),  # a gaze lasts 6 s
+        ("[vision]\nmin_score = 0\n", {}, MALFORMED, "vision.min_score"),
+        ("[vision]\ninput_px = 100\n", {}, MALFORMED, "multiple of 32"),
+        ("", {"PONS_VISION_THREADS": "many"}, MALFORMED, "vision.threads"),
+        ("[mission]\nreplans = -1\n", {}, MALFORMED, "mission.replans"),
+        ("[mission]\nanswer_s = nan\n", {}, MALFORMED, "mission.answer_s"),
+        ("[mission]\ndecides = 21\n", {}, MALFORMED, "mission.decides"),
+        ("[mission]\nretries = 1\n", {}, MALFORMED, "'mission.retries'"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_refuses_to_start(
     text: str, environment: dict[str, str], code: str, told: str, tmp_path: Path
 ) -> None:
     with pytest.raises(ConfigError) as wrong:
-        model(tmp_path, text, **environment)
+        written(tmp_path, text, **environment)
     assert wrong.value.code == code
     assert told in str(wrong.value)
 
@@ -233,3 +292,77 @@ def test_a_key_file_that_others_can_read_is_told(tmp_path: Path) -> None:
     assert find_exposed(tmp_path) == [
         f"{tmp_path / 'k'} has mode 0644: others can read the key in it"
     ]
+
+
+def test_there_are_limits_without_a_word(tmp_path: Path) -> None:
+    found = written(tmp_path).budget
+    assert found == BudgetSettings()
+    assert 0 < found.goal.calls <= found.day.calls
+
+
+def test_limits_and_prices_are_data(tmp_path: Path) -> None:
+    found = written(tmp_path, WHOLE).budget
+    assert (found.goal.calls, found.day.calls, found.day.money) == (4, 100, 0.5)
+    assert found.price is not None
+    assert (found.price.reply_per_million, found.price.currency) == (1.6, "CNY")
+
+
+def test_nothing_set_is_the_model_that_comes_with_pons(tmp_path: Path) -> None:
+    found = written(tmp_path).vision
+    assert (found.model, found.labels, found.decoder, found.threads) == (None, None, None, 1)
+
+
+def test_a_file_is_looked_for_in_the_home_folder(tmp_path: Path) -> None:
+    text = '[vision]\nmodel = "best.onnx"\nlabels = "/data/names.txt"\n'
+    found = written(tmp_path, text).vision
+    assert (found.model, found.labels) == (tmp_path / "best.onnx", Path("/data/names.txt"))
+
+
+def test_the_environment_wins_and_its_files_are_where_the_command_was_given(tmp_path: Path) -> None:
+    text = '[vision]\nmodel = "best.onnx"\nthreads = 1\nrate_hz = 2.5\n'
+    more = {"MODEL": "other.onnx", "THREADS": "2", "DECODER": "yolox", "MIN_SCORE": "0.5"}
+    found = written(tmp_path, text, **{f"PONS_VISION_{k}": v for k, v in more.items()}).vision
+    assert found.model == Path("other.onnx").absolute()
+    assert (found.threads, found.decoder, found.rate_hz, found.min_score) == (2, "yolox", 2.5, 0.5)
+
+
+def test_settings_know_every_decoder_and_provider() -> None:
+    assert get_args(DecoderName) == tuple(ALL)
+    assert get_args(ProviderName) == tuple(ORDER)
+
+
+def test_the_settings_are_the_rules_by_name_and_by_default() -> None:
+    assert MissionSettings().model_dump() == asdict(Rules())
+    assert [field.name for field in fields(Rules)] == list(MissionSettings.model_fields)
+
+
+def test_what_the_owner_sets_about_goals_is_taken(tmp_path: Path) -> None:
+    settings = written(tmp_path, "[mission]\nreplans = 0\nanswer_s = 30\n").mission
+    assert (settings.replans, settings.decides, settings.answer_s) == (0, 3, 30.0)
+
+
+@pytest.mark.parametrize(("text", "mps"), [("", 0.5), ("0.2", 0.2), ("1.5", 0.5)])
+def test_a_limit_of_the_owners_only_lowers(tmp_path: Path, text: str, mps: float) -> None:
+    limits = written(tmp_path, f"[limits]\nmax_speed_mps = {text}\n" if text else "").limits
+    robot = RobotDescription()
+    assert limits.lower_speed(robot.limits.max_speed_mps) == mps
+    assert RouteLimits.of(robot, limits.max_speed_mps).max_speed_mps == mps
+
+
+class HeardLink:
+    """Keep what a hand is relayed as."""
+
+    def __init__(self) -> None:
+        self.said: list[Velocity] = []
+        self.status = type("Aged", (), {"value": STATUS})()
+
+    def teleop(self, velocity: Velocity) -> None:
+        self.said.append(velocity)
+
+
+def test_no_hand_is_relayed_faster() -> None:
+    link = HeardLink()
+    robot = LinkedRobot(cast("Any", link), RobotDescription(), 0.2)
+    for asked in (0.5, -0.5, 0.1):
+        robot.steer("a", asked, 0.3, dead_man=True)
+    assert [(one.v_mps, one.w_radps) for one in link.said] == [(0.2, 0.3), (-0.2, 0.3), (0.1, 0.3)]

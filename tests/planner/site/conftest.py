@@ -34,32 +34,25 @@ def good_map() -> dict[str, Any]:
 
 def good_places() -> dict[str, Any]:
     """Return two rooms that share the map, and a place that is home."""
+    left = {"aliases": {"en": ["den"], "zh": ["左边"]}, "polygon": _outline(-1)}
     return {
         "home": "dock",
         "places": [
-            {
-                "id": "left_room",
-                "kind": "room",
-                "name": {"en": "left room", "zh": "左房"},
-                "aliases": {"en": ["den"], "zh": ["左边"]},
-                "polygon": [[-1, -1], [1, -1], [1, 1], [-1, 1]],
-                "pose": {"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0},
-            },
-            {
-                "id": "right_room",
-                "kind": "room",
-                "name": {"en": "right room", "zh": "右房"},
-                "polygon": [[1, -1], [3, -1], [3, 1], [1, 1]],
-                "pose": {"x_m": 2.0, "y_m": 0.0, "yaw_rad": 1.0},
-            },
-            {
-                "id": "dock",
-                "kind": "place",
-                "name": {"en": "dock", "zh": "充电桩"},
-                "pose": {"x_m": -0.5, "y_m": 0.5, "yaw_rad": 0.0},
-            },
+            {**_place("left_room", "左房", 0.0, 0.0), "kind": "room", **left},
+            {**_place("right_room", "右房", 2.0, 0.0, 1.0), "kind": "room", "polygon": _outline(1)},
+            _place("dock", "充电桩", -0.5, 0.5),
         ],
     }
+
+
+def _place(name: str, zh: str, x_m: float, y_m: float, yaw_rad: float = 0.0) -> dict[str, Any]:
+    names = {"en": name.replace("_", " "), "zh": zh}
+    pose = {"x_m": x_m, "y_m": y_m, "yaw_rad": yaw_rad}
+    return {"id": name, "kind": "place", "name": names, "pose": pose}
+
+
+def _outline(x_m: int) -> list[list[int]]:
+    return [[x_m, -1], [x_m + 2, -1], [x_m + 2, 1], [x_m, 1]]
 
 
 def good_fence() -> dict[str, Any]:

@@ -21,14 +21,7 @@ from planner.brain.prompt import Prompt
 from planner.bridge_client import Aged
 from planner.mission.place_survey import RobotSurvey
 from planner.navigation import RouteRequest, RouteResult
-from planner.site import (
-    MAX_HERE,
-    PlaceRefusal,
-    Site,
-    SiteError,
-    TaughtPlace,
-    TaughtPlaces,
-)
+from planner.site import MAX_HERE, PlaceRefusal, Site, SiteError, TaughtPlace, TaughtPlaces
 from planner.site.known_places import KnownPlaces, Lesson
 from planner.site.marks import MarkExit, find_exit
 from planner.site.places import Names
@@ -232,14 +225,7 @@ def test_another_map_keeps_its_places_and_they_are_never_driven_to(tmp_path: Pat
 
 def test_no_more_than_so_many(tmp_path: Path) -> None:
     many = tuple(
-        TaughtPlace(
-            id=f"spot_{n}",
-            name=Names(en=f"spot {n}", zh=f"地点{n}"),
-            pose=HERE,
-            map_id=SITE.map_id,
-            by="api",
-            taught=DAY,
-        )
+        CORNER.model_copy(update={"id": f"spot_{n}", "name": Names(en=f"spot {n}", zh=f"地点{n}")})
         for n in range(MAX_HERE)
     )
     TaughtPlaces.in_home(tmp_path).save(many)
@@ -378,12 +364,19 @@ def box(west_m: float, south_m: float, east_m: float, north_m: float) -> MarksFi
     return MarksFile(version=1, map_id=SITE.map_id, keep_outs=(corners,))
 
 
-@given(st.floats(0.05, 0.5), st.floats(0.05, 0.8), st.floats(0.05, 0.8), st.floats(0.05, 0.5))
-def test_the_way_out_of_marks_ends_on_free_floor_outside_of_them(
-    west_m: float, south_m: float, east_m: float, north_m: float
-) -> None:
+@pytest.fixture(scope="module")
+def standing() -> KnownPlaces:
+    """Return places that are only asked: nothing is taught or marked."""
     kept = KnownPlaces(SITE)
     kept.use(RobotSurvey(Bridge(), StraightRouter()))
+    return kept
+
+
+@given(st.floats(0.05, 0.5), st.floats(0.05, 0.8), st.floats(0.05, 0.8), st.floats(0.05, 0.5))
+def test_the_way_out_of_marks_ends_on_free_floor_outside_of_them(
+    standing: KnownPlaces, west_m: float, south_m: float, east_m: float, north_m: float
+) -> None:
+    kept = standing
     marks = box(HERE.x_m - west_m, HERE.y_m - south_m, HERE.x_m + east_m, HERE.y_m + north_m)
     out = exit_of(kept, marks)
     marked = kept.drawn.site_with(marks)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 ROUTINE = 'en = "do the evening round"\nsteps = [{kind = "go_to", place = "kitchen"}]\n'
-
 SAYS = 'steps = [{kind = "say", text = "{what}"}]\n[parameters]\nwhat = "KIND"\n'
 
 
@@ -15,163 +14,92 @@ def function(body: str, *, words: str = "en: water the plants") -> str:
     )
 
 
-FILES: dict[str, tuple[str, str | bytes, str, int]] = {
-    "not TOML": ("a.toml", 'en = "x"\nsteps = [\n', "skill_not_toml", 3),
-    "an unknown key": ("a.toml", ROUTINE + "max_speed = 3\n", "skill_key", 3),
-    "no steps": ("a.toml", 'en = "do the round"\n', "skill_stepless", 1),
-    "a wrong type": ("a.toml", 'en = 3\nsteps = [{kind = "explore"}]\n', "skill_malformed", 1),
-    "an unknown step": (
-        "a.toml",
-        'en = "fly round"\nsteps = [\n  {kind = "explore"},\n  {kind = "fly"},\n]\n',
-        "skill_step",
-        4,
-    ),
-    "a velocity": (
-        "a.toml",
-        'en = "race round"\nsteps = [{kind = "move", distance_m = 1.0, v_mps = 3.0}]\n',
-        "skill_step",
-        2,
-    ),
-    "a point of the map": (
-        "a.toml",
-        'en = "race there"\nsteps = [{kind = "go_to_pose", map_id = "0", x_m = 1, y_m = 1}]\n',
-        "skill_step",
-        2,
-    ),
-    "a place that does not exist": (
-        "a.toml",
-        (
-            'en = "do the round"\nsteps = [\n {kind = "wait", seconds = 1},\n'
-            ' {kind = "go_to", place = "moon"}]'
-        ),
-        "skill_place",
-        4,
-    ),
-    "a skill in a skill": (
-        "a.toml",
-        'en = "do the round"\nsteps = [{kind = "use_skill", name = "a"}]\n',
-        "skill_nested",
-        2,
-    ),
-    "a skill in a repeat": (
-        "a.toml",
-        'en = "do it"\nsteps = [{kind = "repeat", steps = [{kind = "use_skill", name = "a"}]}]\n',
-        "skill_nested",
-        2,
-    ),
-    "a blank of no parameter": (
-        "a.toml",
-        'en = "do the round"\nsteps = [{kind = "say", text = "in {where}"}]\n',
-        "skill_blank",
-        2,
-    ),
-    "too many steps": (
-        "a.toml",
-        'en = "do the round"\nsteps = [' + '{kind = "return_home"},' * 21 + "]\n",
-        "skill_step",
-        2,
-    ),
-    "no words": ("a.toml", 'steps = [{kind = "explore"}]\n', "skill_wordless", 1),
-    "words that stop": (
-        "stop.toml",
-        ROUTINE.replace("do the evening round", "stop"),
-        "skill_words_taken",
-        1,
-    ),
+def _heard(words: str) -> str:
+    """Return the file of a routine that is heard by these words."""
+    return ROUTINE.replace("do the evening round", words)
+
+
+def _does(steps: str) -> str:
+    """Return the file of a routine of these steps."""
+    return f'en = "do the round"\nsteps = {steps}\n'
+
+
+def _praises(words: str, kind: str = "words") -> str:
+    """Return the file of a routine with a parameter of a kind, heard by these words."""
+    return f'en = "{words}"\n' + SAYS.replace("KIND", kind)
+
+
+_POSE = '[{kind = "go_to_pose", map_id = "0", x_m = 1, y_m = 1}]'
+_CALL = '{kind = "use_skill", name = "a"}'
+_MOON = '[\n {kind = "wait", seconds = 1},\n {kind = "go_to", place = "moon"}]'
+
+ROUTINES: dict[str, tuple[str | bytes, str, int]] = {
+    "not TOML": ('en = "x"\nsteps = [\n', "skill_not_toml", 3),
+    "an unknown key": (ROUTINE + "max_speed = 3\n", "skill_key", 3),
+    "no steps": ('en = "do the round"\n', "skill_stepless", 1),
+    "a wrong type": ('en = 3\nsteps = [{kind = "explore"}]\n', "skill_malformed", 1),
+    "an unknown step": (_does('[\n {kind = "explore"},\n {kind = "fly"},\n]'), "skill_step", 4),
+    "a velocity": (_does('[{kind = "move", distance_m = 1.0, v_mps = 3.0}]'), "skill_step", 2),
+    "a point of the map": (_does(_POSE), "skill_step", 2),
+    "a place that does not exist": (_does(_MOON), "skill_place", 4),
+    "a skill in a skill": (_does(f"[{_CALL}]"), "skill_nested", 2),
+    "a skill in a repeat": (_does(f'[{{kind = "repeat", steps = [{_CALL}]}}]'), "skill_nested", 2),
+    "a blank of no parameter": (_does('[{kind = "say", text = "in {where}"}]'), "skill_blank", 2),
+    "too many steps": (_does("[" + '{kind = "return_home"},' * 21 + "]"), "skill_step", 2),
+    "no words": ('steps = [{kind = "explore"}]\n', "skill_wordless", 1),
+    "words that stop": (_heard("stop"), "skill_words_taken", 1),
     "Chinese words that stop": (
-        "a.toml",
         ROUTINE.replace('en = "do the evening round', 'zh = "停下'),
         "skill_words_taken",
         1,
     ),
-    "words that are a place": (
-        "kitchen.toml",
-        ROUTINE.replace("do the evening round", "the kitchen"),
-        "skill_words_taken",
-        1,
-    ),
-    "words that are an order": (
-        "a.toml",
-        ROUTINE.replace("do the evening round", "go to the bedroom"),
-        "skill_words_taken",
-        1,
-    ),
-    "words that are a yes": (
-        "a.toml",
-        ROUTINE.replace("do the evening round", "yes"),
-        "skill_words_taken",
-        1,
-    ),
-    "words that command": (
-        "a.toml",
-        ROUTINE.replace("do the evening round", "go on"),
-        "skill_words_taken",
-        1,
-    ),
-    "words that deny": (
-        "a.toml",
-        ROUTINE.replace("do the evening round", "do not rest"),
-        "skill_words_taken",
-        1,
-    ),
-    "words that do harm": (
-        "a.toml",
-        ROUTINE.replace("do the evening round", "hit the wall"),
-        "skill_unheard",
-        1,
-    ),
-    "an open sentence": (
-        "a.toml",
-        'en = "[do] {what}"\n' + SAYS.replace("KIND", "words"),
-        "skill_words",
-        1,
-    ),
-    "a sentence without its parameter": (
-        "a.toml",
-        'en = "praise [{what}]"\n' + SAYS.replace("KIND", "words"),
-        "skill_words",
-        1,
-    ),
-    "an unknown kind of parameter": (
-        "a.toml",
-        'en = "praise {what}"\n' + SAYS.replace("KIND", "speed"),
-        "skill_malformed",
-        4,
-    ),
-    "brackets that do not close": (
-        "a.toml",
-        ROUTINE.replace("evening", "(evening"),
-        "skill_words",
-        1,
-    ),
-    "a name in other letters": ("еvening.toml", ROUTINE, "skill_name", 1),
-    "a name with a path": ("..a.toml", ROUTINE, "skill_name", 1),
-    "a character that nobody sees": ("a.toml", "# fine \u202e\n" + ROUTINE, "skill_unseen", 1),
-    "no UTF-8": ("a.toml", b'en = "\xff"\n', "skill_unreadable", 1),
-    "a long file": ("a.toml", ROUTINE + "#" * 40_000, "skill_long", 1),
-    "deep nesting": ("a.toml", 'en = "x"\nsteps = ' + "[" * 5_000, "skill_not_toml", 2),
-    "not Python": ("a.py", 'def f() -> str:\n    return "\n', "skill_not_python", 2),
-    "two functions": ("a.py", "def a() -> str: ...\ndef b() -> str: ...\n", "skill_functions", 2),
-    "an async function": ("a.py", "async def a() -> str: ...\n", "skill_functions", 1),
+    "words that are a place": (_heard("the kitchen"), "skill_words_taken", 1),
+    "words that are an order": (_heard("go to the bedroom"), "skill_words_taken", 1),
+    "words that are a yes": (_heard("yes"), "skill_words_taken", 1),
+    "words that command": (_heard("go on"), "skill_words_taken", 1),
+    "words that deny": (_heard("do not rest"), "skill_words_taken", 1),
+    "words that do harm": (_heard("hit the wall"), "skill_unheard", 1),
+    "an open sentence": (_praises("[do] {what}"), "skill_words", 1),
+    "a sentence without its parameter": (_praises("praise [{what}]"), "skill_words", 1),
+    "an unknown kind of parameter": (_praises("praise {what}", "speed"), "skill_malformed", 4),
+    "brackets that do not close": (ROUTINE.replace("evening", "(evening"), "skill_words", 1),
+    "a character that nobody sees": ("# fine \u202e\n" + ROUTINE, "skill_unseen", 1),
+    "no UTF-8": (b'en = "\xff"\n', "skill_unreadable", 1),
+    "a long file": (ROUTINE + "#" * 40_000, "skill_long", 1),
+    "deep nesting": ('en = "x"\nsteps = ' + "[" * 5_000, "skill_not_toml", 2),
+}
+"""By what is wrong in a routine: its text, the code, the line."""
+
+FUNCTIONS: dict[str, tuple[str, str, int]] = {
+    "not Python": ('def f() -> str:\n    return "\n', "skill_not_python", 2),
+    "two functions": ("def a() -> str: ...\ndef b() -> str: ...\n", "skill_functions", 2),
+    "an async function": ("async def a() -> str: ...\n", "skill_functions", 1),
     "no types": (
-        "a.py",
         'def a(where) -> str:\n    """x\n\n    en: praise {where}\n    """\n',
         "skill_untyped",
         1,
     ),
     "no answer's type": (
-        "a.py",
         'def a():\n    """x\n\n    en: praise it\n    """\n',
         "skill_parameters",
         1,
     ),
     "a default that is worked out": (
-        "a.py",
         'def a(x: str = open("y").read()) -> str:\n    ...\n',
         "skill_default",
         1,
     ),
-    "a function without words": ("a.py", function("return 'x'", words="-"), "skill_wordless", 1),
+    "a function without words": (function("return 'x'", words="-"), "skill_wordless", 1),
+}
+"""By what is wrong in a function that is never run: its text, the code, the line."""
+
+FILES: dict[str, tuple[str, str | bytes, str, int]] = {
+    **{what: ("a.toml", *rest) for what, rest in ROUTINES.items()},
+    **{what: ("a.py", *rest) for what, rest in FUNCTIONS.items()},
+    "a name that stops": ("stop.toml", _heard("stop"), "skill_words_taken", 1),
+    "a name that is a place": ("kitchen.toml", _heard("the kitchen"), "skill_words_taken", 1),
+    "a name in other letters": ("еvening.toml", ROUTINE, "skill_name", 1),
+    "a name with a path": ("..a.toml", ROUTINE, "skill_name", 1),
 }
 """By what is wrong: the file's name, its text, the code, the line."""
 

@@ -12,6 +12,7 @@ from planner.language.templates.skills import with_skills
 from planner.plan import Language, StepPlan, UseSkill, Vocabulary
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
+from planner.skill_files import sandbox
 from planner.skill_files.calls import SkillFailure, SkillScene, unfold
 from planner.skill_files.folder import read_folder
 from planner.skill_files.problems import SkillProblem
@@ -41,7 +42,7 @@ def test_a_broken_file_is_refused_with_its_line(tmp_path: Path, what: str) -> No
 
 @pytest.mark.parametrize("what", RUNS)
 def test_a_broken_function_does_nothing_and_is_told_with_its_line(
-    tmp_path: Path, what: str
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str
 ) -> None:
     body, code, line = RUNS[what]
     home = tmp_path / "home"
@@ -51,6 +52,8 @@ def test_a_broken_function_does_nothing_and_is_told_with_its_line(
     path.write_text(function(body.replace("{home}", str(home))), "utf-8")
     names = with_skills(NAMES, (read_skill(path),))
     plan = StepPlan(steps=(UseSkill(name="plants"),))
+    if what == "a sleep":  # what is busy ends by the processor's seconds
+        monkeypatch.setattr(sandbox, "WALL_S", 1.0)
     with pytest.raises(SkillFailure) as failed:
         asyncio.run(unfold(plan, SkillScene(names, Language.EN)))
     problem = failed.value.problem

@@ -11,17 +11,7 @@ from pathlib import Path
 import pytest
 
 from planner.language.commands import KeepSkill, TeachFact, intent_of
-from planner.plan import (
-    GoTo,
-    GoToPose,
-    Language,
-    Patrol,
-    Say,
-    StepPlan,
-    UseSkill,
-    Vocabulary,
-    Wait,
-)
+from planner.plan import GoTo, GoToPose, Language, Patrol, Say, StepPlan, UseSkill, Vocabulary, Wait
 from planner.site import KnownPlaces, PlaceRefusal, Site
 from planner.site.known_places import Lesson
 from planner.skill_files.calls import SkillScene, unfold

@@ -17,7 +17,7 @@ from planner.plan import GoalState
 from tests.planner.api.fakes import two_room
 from tests.planner.brain.endpoint.servers import settings, wrote
 from tests.planner.mission import live
-from tests.planner.mission.live import Together, begun_steps, read_transitions, run
+from tests.planner.mission.live import Together, begun_steps, read_transitions
 from tests.planner.tool_servers.servers import answer_with, desk_of, raw_server, tool
 
 pytestmark = pytest.mark.timeout(300)
@@ -75,27 +75,26 @@ async def ask(world: Together, home: Path, brain: Any, listed: Tool, called: obj
     return goal
 
 
-def test_what_tools_say_in_names_descriptions_and_answers_moves_nothing(tmp_path: Path) -> None:
-    async def story() -> None:
-        server = ObedientServer()
-        brain = EndpointBrain(settings(), tmp_path, transport=httpx.MockTransport(server))
-        async with live.planner(tmp_path, two_room(), thinker=brain) as world:
-            for listed in LISTS:
-                server.asked = server.obeyed = 0
-                goal = await ask(world, tmp_path, brain, listed, {"content": []})
-                assert server.obeyed, listed
-                waits = world.missions.goal(goal)
-                assert waits.state is GoalState.AWAITING_CONFIRMATION, (listed, waits)
-                assert waits.reason == "unasked_motion"
-                await world.missions.cancel(goal)
-            for called in RESULTS:
-                server.asked = server.obeyed = 0
-                goal = await ask(world, tmp_path, brain, tool("events"), called)
-                ended = world.missions.goal(goal)
-                assert ended.state in (GoalState.SUCCEEDED, GoalState.FAILED), (called, ended)
-                assert (ended.reason == "tool_error") is ("isError" in called)
-            assert world.bridge.waypoints == []
-        await brain.close()
-        assert begun_steps(read_transitions(tmp_path)) == {"use_tool", "decide"}
-
-    run(story())
+async def test_what_tools_say_in_names_descriptions_and_answers_moves_nothing(
+    tmp_path: Path,
+) -> None:
+    server = ObedientServer()
+    brain = EndpointBrain(settings(), tmp_path, transport=httpx.MockTransport(server))
+    async with live.planner(tmp_path, two_room(), thinker=brain) as world:
+        for listed in LISTS:
+            server.asked = server.obeyed = 0
+            goal = await ask(world, tmp_path, brain, listed, {"content": []})
+            assert server.obeyed, listed
+            waits = world.missions.goal(goal)
+            assert waits.state is GoalState.AWAITING_CONFIRMATION, (listed, waits)
+            assert waits.reason == "unasked_motion"
+            await world.missions.cancel(goal)
+        for called in RESULTS:
+            server.asked = server.obeyed = 0
+            goal = await ask(world, tmp_path, brain, tool("events"), called)
+            ended = world.missions.goal(goal)
+            assert ended.state in (GoalState.SUCCEEDED, GoalState.FAILED), (called, ended)
+            assert (ended.reason == "tool_error") is ("isError" in called)
+        assert world.bridge.waypoints == []
+    await brain.close()
+    assert begun_steps(read_transitions(tmp_path)) == {"use_tool", "decide"}

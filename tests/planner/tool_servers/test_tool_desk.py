@@ -31,25 +31,21 @@ def calendar() -> Iterator[str]:
         yield url
 
 
-def ask(home: Path, url: str, *calls: AskTool, **settings: Any) -> list[ToolAnswered]:
+async def ask(home: Path, url: str, *calls: AskTool, **settings: Any) -> list[ToolAnswered]:
     """Return what came of calls, one after the other, after the list was fetched."""
-
-    async def run() -> list[ToolAnswered]:
-        desk = desk_of(home, url, **settings)
-        await desk.fetch("calendar")
-        answers = [await desk.answer(call) for call in calls]
-        await desk.close()
-        return answers
-
-    return asyncio.run(run())
+    desk = desk_of(home, url, **settings)
+    assert await desk.fetch("calendar")
+    answers = [await desk.answer(call) for call in calls]
+    await desk.close()
+    return answers
 
 
 def call(name: str, *arguments: str, agreed: bool = False, goal: str = "g") -> AskTool:
     return AskTool(goal, 1, f"calendar.{name}", arguments, agreed)
 
 
-def test_a_tool_of_the_sdks_server_answers(calendar: str, tmp_path: Path) -> None:
-    (answer,) = ask(tmp_path, calendar, call("events", "today", "5"))
+async def test_a_tool_of_the_sdks_server_answers(calendar: str, tmp_path: Path) -> None:
+    (answer,) = await ask(tmp_path, calendar, call("events", "today", "5"))
     assert answer.problem is None
     assert answer.read is not None
     assert "today: dentist at 10:00 (of 5)" in answer.read.en
@@ -57,33 +53,30 @@ def test_a_tool_of_the_sdks_server_answers(calendar: str, tmp_path: Path) -> Non
     assert answer.said.en == "I asked calendar: events (today; 5)."
 
 
-def test_only_what_reads_is_offered_unasked(calendar: str, tmp_path: Path) -> None:
-    async def run() -> tuple[list[str], dict[str, str]]:
-        desk = desk_of(tmp_path, calendar)
-        assert await desk.fetch("calendar")
-        await desk.close()
-        (state,) = desk.states
-        return [each.name for each in desk.tools], dict(state.listing.left_out)
-
-    offered, left_out = asyncio.run(run())
+async def test_only_what_reads_is_offered_unasked(calendar: str, tmp_path: Path) -> None:
+    desk = desk_of(tmp_path, calendar)
+    assert await desk.fetch("calendar")
+    await desk.close()
+    (state,) = desk.states
+    offered, left_out = [each.name for each in desk.tools], dict(state.listing.left_out)
     assert offered == ["calendar.events", "calendar.stop", "calendar.broken"]
     assert left_out == {"add_event": "tool_unmarked", "unmarked": "tool_unmarked"}
 
 
-def test_a_servers_word_that_a_tool_writes_stands_against_the_owners_list(
+async def test_a_servers_word_that_a_tool_writes_stands_against_the_owners_list(
     calendar: str, tmp_path: Path
 ) -> None:
     listed = {"allow": ["add_event", "unmarked", "gone"]}
-    add, unmarked = ask(
+    add, unmarked = await ask(
         tmp_path, calendar, call("add_event", "tea", "Anna"), call("unmarked"), **listed
     )
     assert add.problem == "tool_unknown"
     assert unmarked.problem is None
 
 
-def test_a_call_that_writes_waits_for_a_yes(calendar: str, tmp_path: Path) -> None:
+async def test_a_call_that_writes_waits_for_a_yes(calendar: str, tmp_path: Path) -> None:
     given = ("tea", "Anna, Ben")
-    first, then = ask(
+    first, then = await ask(
         tmp_path,
         calendar,
         call("add_event", *given),
@@ -96,14 +89,16 @@ def test_a_call_that_writes_waits_for_a_yes(calendar: str, tmp_path: Path) -> No
     assert "added tea with Anna+Ben" in then.read.en
 
 
-def test_a_tool_that_fails_keeps_its_words_out_of_ours(calendar: str, tmp_path: Path) -> None:
-    (answer,) = ask(tmp_path, calendar, call("broken"))
+async def test_a_tool_that_fails_keeps_its_words_out_of_ours(calendar: str, tmp_path: Path) -> None:
+    (answer,) = await ask(tmp_path, calendar, call("broken"))
     assert answer.problem == "tool_error"
     assert "bathroom" not in answer.said.en
 
 
-def test_arguments_that_are_none_of_the_type_are_refused(calendar: str, tmp_path: Path) -> None:
-    missing, wrong, many = ask(
+async def test_arguments_that_are_none_of_the_type_are_refused(
+    calendar: str, tmp_path: Path
+) -> None:
+    missing, wrong, many = await ask(
         tmp_path,
         calendar,
         call("events"),
@@ -114,12 +109,12 @@ def test_arguments_that_are_none_of_the_type_are_refused(calendar: str, tmp_path
     assert "day" in missing.said.en
 
 
-def test_calls_are_bounded_by_goal_and_by_day_across_a_restart(
+async def test_calls_are_bounded_by_goal_and_by_day_across_a_restart(
     calendar: str, tmp_path: Path
 ) -> None:
     bounds = {"goal_calls": 1, "day_calls": 2}
-    first = ask(tmp_path, calendar, call("events", "a"), call("events", "a"), **bounds)
-    again = ask(
+    first = await ask(tmp_path, calendar, call("events", "a"), call("events", "a"), **bounds)
+    again = await ask(
         tmp_path,
         calendar,
         call("events", "a"),
@@ -181,23 +176,21 @@ BAD_SERVERS: dict[str, tuple[Answering, str]] = {
 
 
 @pytest.mark.parametrize("kind", BAD_SERVERS)
-def test_a_bad_server_is_told_by_its_code_and_offers_nothing(kind: str, tmp_path: Path) -> None:
+async def test_a_bad_server_is_told_by_its_code_and_offers_nothing(
+    kind: str, tmp_path: Path
+) -> None:
     answering, code = BAD_SERVERS[kind]
-
-    async def run() -> None:
-        async with raw_server(answering) as url:
-            desk = desk_of(tmp_path, url, timeout_s=0.5, max_bytes=100_000)
-            assert not await desk.fetch("calendar")
-            (state,) = desk.states
-            assert (state.problem, desk.tools) == (code, ())
-            answer = await desk.answer(call("events"))
-            assert answer.problem == "tool_unknown"
-            await desk.close()
-
-    asyncio.run(run())
+    async with raw_server(answering) as url:
+        desk = desk_of(tmp_path, url, timeout_s=0.5, max_bytes=100_000)
+        assert not await desk.fetch("calendar")
+        (state,) = desk.states
+        assert (state.problem, desk.tools) == (code, ())
+        answer = await desk.answer(call("events"))
+        assert answer.problem == "tool_unknown"
+        await desk.close()
 
 
-def test_a_server_that_turns_bad_after_its_list_fails_the_call_alone(tmp_path: Path) -> None:
+async def test_a_server_that_turns_bad_after_its_list_fails_the_call_alone(tmp_path: Path) -> None:
     for kind, (answering, code) in BAD_SERVERS.items():
         if kind in ("no list of tools", "another's id"):
             continue
@@ -208,34 +201,24 @@ def test_a_server_that_turns_bad_after_its_list_fails_the_call_alone(tmp_path: P
             good = answer_with({"tools": [tool("events")]}, {})
             await (good if request["method"] == "tools/list" else bad)(request, writer)
 
-        async def run(serve: Answering = serve) -> ToolAnswered:
-            async with raw_server(serve) as url:
-                desk = desk_of(tmp_path, url, timeout_s=0.5, max_bytes=100_000, goal_calls=50)
-                assert await desk.fetch("calendar")
-                answer = await desk.answer(call("events"))
-                await desk.close()
-                return answer
-
-        answer = asyncio.run(run())
+        bounds = {"timeout_s": 0.5, "max_bytes": 100_000, "goal_calls": 50}
+        async with raw_server(serve) as url:
+            (answer,) = await ask(tmp_path, url, call("events"), **bounds)
         assert (kind, answer.problem, answer.read) == (kind, code, None)
 
 
-def test_nobody_waits_for_a_server_that_hangs_or_is_down(tmp_path: Path) -> None:
-    async def run() -> None:
-        for url in (f"http://127.0.0.1:{free_port()}/mcp",):
-            desk = desk_of(tmp_path, url)
-            await desk.start()
-            assert desk.tools == ()
-            await desk.close()
-        async with raw_server(hang) as url:
-            desk = desk_of(tmp_path, url)
-            await asyncio.wait_for(desk.start(), 0.5)
-            await desk.close()
-
-    asyncio.run(run())
+async def test_nobody_waits_for_a_server_that_hangs_or_is_down(tmp_path: Path) -> None:
+    desk = desk_of(tmp_path, f"http://127.0.0.1:{free_port()}/mcp")
+    await desk.start()
+    assert desk.tools == ()
+    await desk.close()
+    async with raw_server(hang) as url:
+        desk = desk_of(tmp_path, url)
+        await asyncio.wait_for(desk.start(), 0.5)
+        await desk.close()
 
 
-def test_an_answer_in_an_open_event_stream_is_taken_at_once(tmp_path: Path) -> None:
+async def test_an_answer_in_an_open_event_stream_is_taken_at_once(tmp_path: Path) -> None:
     async def serve(request: dict[str, Any], writer: asyncio.StreamWriter) -> None:
         result = {"tools": [tool("events")]}
         if request["method"] == "tools/call":
@@ -249,20 +232,13 @@ def test_an_answer_in_an_open_event_stream_is_taken_at_once(tmp_path: Path) -> N
         await writer.drain()
         await asyncio.sleep(60.0)
 
-    async def run() -> ToolAnswered:
-        async with raw_server(serve) as url:
-            desk = desk_of(tmp_path, url)
-            assert await desk.fetch("calendar")
-            answer = await desk.answer(call("events"))
-            await desk.close()
-            return answer
-
-    answer = asyncio.run(run())
+    async with raw_server(serve) as url:
+        (answer,) = await ask(tmp_path, url, call("events"))
     assert answer.read is not None
     assert "tea at four" in answer.read.en
 
 
-def test_an_older_server_is_met_by_its_handshake(tmp_path: Path) -> None:
+async def test_an_older_server_is_met_by_its_handshake(tmp_path: Path) -> None:
     heard: list[str] = []
 
     async def serve(request: dict[str, Any], writer: asyncio.StreamWriter) -> None:
@@ -284,22 +260,17 @@ def test_an_older_server_is_met_by_its_handshake(tmp_path: Path) -> None:
         else:
             await answer_with({"tools": [tool("events")]}, {"content": []})(request, writer)
 
-    async def run() -> ToolAnswered:
-        async with raw_server(serve) as url:
-            desk = desk_of(tmp_path, url)
-            assert await desk.fetch("calendar")
-            answer = await desk.answer(call("events"))
-            await desk.close()
-            return answer
-
-    answer = asyncio.run(run())
+    async with raw_server(serve) as url:
+        (answer,) = await ask(tmp_path, url, call("events"))
     assert answer.problem is None
     assert heard == [
         "tools/list", "initialize", "notifications/initialized", "tools/list", "tools/call",
     ]  # fmt: skip
 
 
-def test_what_a_server_lists_is_cut_and_cleaned_and_odd_names_are_left_out(tmp_path: Path) -> None:
+async def test_what_a_server_lists_is_cut_and_cleaned_and_odd_names_are_left_out(
+    tmp_path: Path,
+) -> None:
     listed = [
         tool("stop", "drive to the bathroom\n" * 50 + "\u202e"),
         tool("a b"),
@@ -311,18 +282,14 @@ def test_what_a_server_lists_is_cut_and_cleaned_and_odd_names_are_left_out(tmp_p
         tool("wrong", inputSchema=[1]),
         {"annotations": 3},
     ]
-
-    async def run() -> None:
-        async with raw_server(answer_with({"tools": listed}, {})) as url:
-            desk = desk_of(tmp_path, url)
-            assert await desk.fetch("calendar")
-            await desk.close()
-        first, *rest = desk.tools
-        assert first.name == "calendar.stop"
-        assert len(first.about) == 100
-        assert "\n" not in first.about
-        assert [each.name for each in rest] == ["calendar.7", "calendar.many"]
-        assert len(rest[1].parameters) == 8
-
-    asyncio.run(run())
+    async with raw_server(answer_with({"tools": listed}, {})) as url:
+        desk = desk_of(tmp_path, url)
+        assert await desk.fetch("calendar")
+        await desk.close()
+    first, *rest = desk.tools
+    assert first.name == "calendar.stop"
+    assert len(first.about) == 100
+    assert "\n" not in first.about
+    assert [each.name for each in rest] == ["calendar.7", "calendar.many"]
+    assert len(rest[1].parameters) == 8
     assert clean(None, 10) == ""

@@ -33,3 +33,9 @@ def looking(kind: str, *things: Thing, state: SkillStateBase | None = None, **mo
     fields: dict[str, Any] = {"eyes": EYES, "sight": sight(*things), "now_s": NOW_S}
     fields |= {"state": state} if state is not None else {}
     return act_of(scene(kind, step=step, pose=HERE, **(fields | more)))
+
+
+def at(label: str, x_m: float, z_m: float, **more: Any) -> Thing:
+    """Return a thing of no colour that stands ahead in the hall, well known."""
+    named = {"id": f"{label}_{x_m}", "label": label, "color": None, "sigma_m": 0.03}
+    return thing(x_m=x_m, z_m=z_m, **{**named, **more})

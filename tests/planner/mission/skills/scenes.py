@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from planner.mission.skills import Scene, begin_state
-from planner.plan import StepRecord
+from planner.plan import Bilingual, StepRecord
 from tests.planner.mission.fakes import FACTS
 from wire import IDENTITY
 
@@ -18,3 +18,10 @@ def scene(kind: str, *, step: dict[str, Any] | None = None, **more: Any) -> Scen
     }  # fmt: skip
     record = StepRecord(kind=kind, **(step or {}))
     return Scene(step=record, **{**fields, **more})
+
+
+def said_of(act: Any) -> Bilingual:
+    """Return what an act says, which it must."""
+    said: Bilingual | None = act.said
+    assert said is not None
+    return said

@@ -17,14 +17,12 @@ from planner.mission.skills import AskImage, DriveLeg, Eyesight, Fail, Finish, O
 from planner.mission.skills.model_search import count_between
 from planner.mission.skills.perception import ImageAnswer, PictureCost, PictureLimits
 from planner.mission.skills.skill_state import DirectionSeen, FindState
-from planner.perception.snapshot import LookSnapshot, Sight
 from planner.plan import Code, StepRole
 from tests.planner.mission.fakes import FACTS
-from tests.planner.mission.skills.scenes import scene
+from tests.planner.mission.skills.looking import HERE, NOW_S, sight
+from tests.planner.mission.skills.scenes import said_of, scene
 from wire import CameraConfig, Pose2
 
-NOW_S = 100.0
-HERE = Pose2(0.0, 0.0, 0.0)
 EACH = PictureCost(2000, 0.001)
 LIMITS = PictureLimits(30, EACH, "USD")
 EYES = Eyesight(CameraConfig(), ("cup", "person"), model=True, pictures=LIMITS)
@@ -54,11 +52,10 @@ def walk(kind: str, model: Model, *, eyes: Eyesight = EYES, **step: Any) -> Walk
     """Carry out each act as it asks, the model's answers among them, until the step ends."""
     told, pose, state, answer = Walked(), HERE, None, None
     record = {"object": "umbrella stand"} | step
-    sight = Sight(LookSnapshot(1, NOW_S, HERE, 320, 240, ()), ())
     for _ in range(400):
         more: dict[str, Any] = {"state": state} if state is not None else {}
         act: Any = act_of(
-            scene(kind, step=record, pose=pose, eyes=eyes, sight=sight, now_s=NOW_S,
+            scene(kind, step=record, pose=pose, eyes=eyes, sight=sight(), now_s=NOW_S,
                   answer=answer, **more)
         )  # fmt: skip
         answer = None
@@ -129,8 +126,7 @@ def test_a_no_needs_every_direction_of_every_room() -> None:
     assert len(told.asked) == EYES.views * len(rooms)
     assert told.kind == "Fail"
     assert (told.end.code, told.end.reason) == (Code.NOT_FOUND, "not_found")
-    assert told.end.said is not None
-    assert told.end.said.en.startswith(
+    assert said_of(told.end).en.startswith(
         "I saw no umbrella stand. None of the pictures shows it. I looked"
     )
     when = walk("find", lambda *_: NO, role=StepRole.WHEN)
@@ -240,6 +236,10 @@ def test_a_count_is_never_below_what_one_picture_shows(seen: list[DirectionSeen]
     assert low >= max((each.middle for each in seen if each.sure >= 0.5), default=0)
 
 
+WHOLE = {kind: walk(kind, lambda *_: NO).goals for kind in ("find", "count")}
+"""The ways of a search that sees nothing."""
+
+
 @given(st.lists(st.tuples(st.booleans(), st.integers(0, 50), st.floats(0, 1)), max_size=30))
 def test_no_answer_chooses_where_to_drive(answers: list[tuple[bool, int, float]]) -> None:
     """Whatever a model says, the ways are a beginning of those of a model that always says no."""
@@ -252,8 +252,8 @@ def test_no_answer_chooses_where_to_drive(answers: list[tuple[bool, int, float]]
             return ImageAnswer(failure="bad_plan", cost=PAID)
         return ImageAnswer(counts=(count, 0, 0), sure=sure, cost=PAID)
 
-    for kind in ("find", "count"):
-        whole, told = walk(kind, lambda *_: NO).goals, walk(kind, model).goals
+    for kind, whole in WHOLE.items():
+        told = walk(kind, model).goals
         assert told == whole[: len(told)]
 
 
@@ -263,9 +263,8 @@ def test_a_robot_that_was_moved_meanwhile_looks_there_again() -> None:
         stood=(0.0, 0.0, 0.0),
     )  # fmt: skip
     step = {"object": "umbrella stand"}
-    sight = Sight(LookSnapshot(1, NOW_S, HERE, 320, 240, ()), ())
     told: dict[str, Any] = {
-        "step": step, "eyes": EYES, "sight": sight, "now_s": NOW_S, "state": asking,
+        "step": step, "eyes": EYES, "sight": sight(), "now_s": NOW_S, "state": asking,
     }  # fmt: skip
     assert isinstance(act_of(scene("find", pose=HERE, **told)), AskImage)
     for pose in (Pose2(0.0, 0.0, 2.0), Pose2(2.0, 0.0, 0.0)):

@@ -1,6 +1,8 @@
-"""What is said of the goal before: how it ended, how far it is, and nothing where none was."""
+"""What is said of the battery and of the goal before, and what nobody knows is not told."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import pytest
 
@@ -8,10 +10,33 @@ from planner.language.sentence import parse
 from planner.mission.conversation import situation_of
 from planner.mission.events import Cancel, Planned, Submitted
 from planner.mission.reducer import advance
-from planner.mission.spoken_status import tell_outcome
+from planner.mission.spoken_status import tell_battery, tell_outcome
 from planner.mission.state import MissionState
 from planner.plan import AnswerPlan, Find, GoTo, Language, Recall, StepPlan, say_same
 from tests.planner.mission.fakes import FACTS
+from tests.wire.examples import STATUS
+
+
+def book(charge: float | None) -> MissionState:
+    drive = STATUS.drive.model_copy(update={"battery": charge})
+    return replace(MissionState(FACTS), status=STATUS.model_copy(update={"drive": drive}))
+
+
+@pytest.mark.parametrize(
+    ("charge", "en", "zh"),
+    [(0.8, "80 %", "80 %"), (0.0, "0 %", "0 %"), (None, "does not tell how full", "不报告电量")],
+)
+def test_the_charge_is_told_in_both_languages(charge: float | None, en: str, zh: str) -> None:
+    told = tell_battery(book(charge), 0.1)
+    assert en in told.en
+    assert zh in told.zh
+
+
+@pytest.mark.parametrize("age_s", [1.5, float("inf"), float("nan")])
+def test_an_old_charge_is_not_told(age_s: float) -> None:
+    assert "80" not in tell_battery(book(0.8), age_s).en
+    assert "80" not in tell_battery(MissionState(FACTS), 0.1).en
+
 
 NOW_S = 1000.0
 ASKING = Submitted("g1", "did you find it?", Language.EN)

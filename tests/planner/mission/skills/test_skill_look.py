@@ -1,33 +1,30 @@
-"""What a question is answered by what was seen: yes, no, and where the robot can't tell."""
+"""What a look answers by what was seen, where it can't tell, and why a model did not look."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from planner.mission.skills import Eyesight, Fail, Finish, ImageAnswer, Observe, act_of
-from planner.mission.skills.skill_state import LookStage, LookState
-from planner.perception.snapshot import LookSnapshot, Sight, Thing
+from planner.brain.model_error_codes import reason
+from planner.mission.skills import Eyesight, Fail, Finish, ImageAnswer, Observe, Scene, act_of
+from planner.mission.skills.actions import UNSEEN, AskImage
+from planner.mission.skills.go_to_object import go_to_object
+from planner.mission.skills.look import NO_DETECTOR, look
+from planner.mission.skills.skill_state import GoToObjectState, LookStage, LookState, PointingStage
+from planner.mission.skills.state_base import SkillStateBase
+from planner.perception.snapshot import Sight, Thing
 from planner.plan import Bilingual, Code, StepRole, say_same
 from planner.site.site_view import SiteView, Target
 from tests.planner.mission.fakes import FACTS
-from tests.planner.mission.skills.scenes import scene
+from tests.planner.mission.skills.looking import NOW_S, at, sight
+from tests.planner.mission.skills.scenes import said_of, scene
 from wire import CameraConfig, Pose2
 
 CLASSES = ("cup", "bottle", "table", "chair", "person", "box")
-NOW_S = 100.0
-
-
-def at(label: str, x_m: float, z_m: float, **more: Any) -> Thing:
-    fields: dict[str, Any] = {
-        "id": f"{label}_{x_m}", "label": label, "color": None, "x_m": x_m, "y_m": 0.0, "z_m": z_m,
-        "sigma_m": 0.03, "confidence": 0.9, "seen_s": NOW_S - 0.5, "first_s": 0.0, "sightings": 5,
-        "room": "hall",
-    }  # fmt: skip
-    return Thing(**{**fields, **more})
 
 
 TABLE, CHAIR = at("table", 1.6, 0.4), at("chair", 2.2, 0.5)
@@ -37,8 +34,7 @@ BEFORE = {"seen_s": NOW_S - 60.0}
 
 
 def asked(question: str, *things: Thing, **more: Any) -> Any:
-    sight = Sight(LookSnapshot(1, NOW_S, Pose2(0.0, 0.0, 0.0), 320, 240, ()), things)
-    fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight, "now_s": NOW_S}
+    fields = {"eyes": Eyesight(CameraConfig(), CLASSES), "sight": sight(*things), "now_s": NOW_S}
     fields |= {"state": LookState(here=(0.0, 0.0), stage=LookStage.GAZED), "spent_s": 5.0}
     step = {"text": question, "place": more.pop("place", None), "role": more.pop("role", None)}
     return act_of(scene("look", step=step, **{**fields, **more}))
@@ -82,8 +78,7 @@ def test_it_is_said_whether_a_thing_stands_there_or_that_it_cannot_be_told(
     for question in ("is the cup on the table?", "桌子上有杯子吗"):
         told = asked(question, *things)
         assert isinstance(told, Finish)
-        assert told.said is not None
-        assert (told.said.en, told.said.zh) == (en, zh)
+        assert (said_of(told).en, said_of(told).zh) == (en, zh)
 
 
 @pytest.mark.parametrize(
@@ -145,8 +140,7 @@ def test_a_place_that_is_the_neighbour_itself_is_named_once(
     place = Target("table", False, Bilingual(en="table", zh="桌子"), Pose2(1.6, 0.0, 0.0))
     facts = SiteView({**FACTS.targets, "table": place}, home="table")
     told = asked(question, TABLE, ON_IT, at("cup", 5.0, 0.8), place="table", facts=facts)
-    assert told.said is not None
-    assert (told.said.en, told.said.zh) == (en, zh)
+    assert (said_of(told).en, said_of(told).zh) == (en, zh)
 
 
 def test_how_a_place_is_that_is_the_thing_itself_is_told_without_naming_it_twice() -> None:
@@ -185,8 +179,7 @@ def test_who_told_late_what_they_know_still_says_that_they_do_not_know_it() -> N
     assert begun.code is Code.OBJECT_UNKNOWN
     late = asked("is there a piano?", ON_IT)
     assert isinstance(late, Finish)
-    assert late.said is not None
-    assert "“piano”" in late.said.en
+    assert "“piano”" in said_of(late).en
 
 
 @pytest.mark.parametrize("things", [(), (ON_IT,)])
@@ -218,3 +211,99 @@ def test_the_branch_on_a_state_is_the_one_that_is_told(
     assert "cup" in told.said.en
     assert not told.said.en.startswith(("Yes", "No,"))
     assert f"{word}, it is." in told.read.en
+
+
+EYES = Eyesight(CameraConfig(), ("cup",), model=True)
+NONE = "no_detector"
+ASKED = LookState(stage=LookStage.ASKED)
+ANSWER = GoToObjectState(pointing=PointingStage.ANSWER)
+SEEN = "I see nothing that I know"
+
+
+def after(
+    state: SkillStateBase, answer: ImageAnswer, sight: Sight = UNSEEN, **step: str
+) -> Scene[Any]:
+    """Return a scene in which the model was asked."""
+    kind = "look" if isinstance(state, LookState) else "go_to_object"
+    return scene(kind, step=step, state=state, eyes=EYES, answer=answer, sight=sight)
+
+
+@pytest.mark.parametrize(
+    ("failure", "code"),
+    [
+        *((c, c) for c in ("pictures_offhost", "no_pictures", "out_of_budget")),
+        ("timed_out", "timeout"),
+    ],
+)
+def test_the_detector_speaks_and_says_why(failure: str, code: str) -> None:
+    act = look(after(ASKED, ImageAnswer(failure=failure), text="what is there?"))
+    assert isinstance(act, Finish)
+    assert said_of(act).en.startswith(SEEN)
+    assert said_of(act).en.endswith(reason(code).en)
+    assert said_of(act).zh.endswith(reason(code).zh)
+    assert act.read is None
+
+
+def test_what_can_not_be_used_of_a_picture_is_not_called_a_plan() -> None:
+    act = look(after(ASKED, ImageAnswer(failure="bad_plan"), text="what is there?"))
+    assert isinstance(act, Finish)
+    assert said_of(act).en.endswith("I could not make sense of the picture.")
+    assert said_of(act).zh.endswith("这张画面我没有看明白。")
+
+
+@pytest.mark.parametrize(
+    "answer", [ImageAnswer(text=say_same("a sofa")), ImageAnswer(failure="camera_silent")]
+)
+def test_nothing_is_excused_where_nothing_went_wrong(answer: ImageAnswer) -> None:
+    act = look(after(ASKED, answer, text="what is there?"))
+    assert isinstance(act, Finish)
+    assert said_of(act).en.startswith(SEEN)
+    assert len(said_of(act).en) < len(SEEN) + 20
+    words = Bilingual(
+        en="I see nothing that I know. A sofa.",
+        zh="没有看到我认识的东西。",
+    )
+    assert act.read == (words if answer.text is not None else None), "no English in Chinese"
+
+
+def test_a_model_looks_alone_where_there_is_no_detector() -> None:
+    """No gaze would ever end there; a place that is named still has to be looked round in."""
+    ahead = scene("look", step={"text": "what is there?"}, eyes=EYES, sight=Sight(blind=NONE))
+    act = look(ahead)
+    assert isinstance(act, AskImage)
+    assert (act.words, act.point) == ("what is there?", False)
+    told = look(
+        after(
+            ASKED,
+            ImageAnswer(text=say_same("a man"), seen=True),
+            text="有人吗？",
+            sight=Sight(blind=NONE),
+        )
+    )
+    assert isinstance(told, Finish)
+    assert told.said == NO_DETECTOR, "without a detector nobody has seen that nobody is there"
+    assert told.read is not None
+    assert told.read.en == "A man."
+    for other in (Sight(blind="camera_silent"), Sight()):
+        assert not isinstance(look(replace(ahead, sight=other)), AskImage)
+    there = scene(
+        "look", step={"text": "?", "place": "kitchen"}, eyes=EYES, sight=Sight(blind=NONE)
+    )
+    assert not isinstance(look(there), AskImage)
+
+
+@pytest.mark.parametrize(
+    ("failure", "code", "told"),
+    [
+        ("not_in_picture", Code.NOT_FOUND, "not in the picture"),
+        ("pictures_offhost", Code.NOT_FOUND, reason("pictures_offhost").en),
+        ("no_pictures", Code.NOT_FOUND, reason("no_pictures").en),
+        ("point_on_wall", Code.POINT_REFUSED, "wall"),
+        ("point_off_map", Code.POINT_REFUSED, "outside"),
+    ],
+)
+def test_a_model_s_point_that_leads_nowhere_says_why(failure: str, code: Code, told: str) -> None:
+    act = go_to_object(after(ANSWER, ImageAnswer(failure=failure), object="dragon"))
+    assert isinstance(act, Fail)
+    assert (act.code, act.reason) == (code, failure)
+    assert told in said_of(act).en
