@@ -16,7 +16,6 @@ from planner.plan import (
     Code,
     Refuse,
     StepPlan,
-    Vocabulary,
     places_of,
 )
 from tests.planner.brain.conftest import HOME, NOON
@@ -328,10 +327,6 @@ def test_an_offer_is_an_order_that_is_planned_without_a_question(
     made = plan(words.format(p=name.en, z=name.zh), runnable)
     for option in made.options if isinstance(made, Clarify) else ():
         assert isinstance(plan(option.text, runnable), StepPlan), option
-
-
-def test_a_world_of_places_is_named(home: Vocabulary) -> None:
-    assert len(SIMPLE) == len(home.entries)
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
+from pathlib import Path
 from string import Formatter
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -14,10 +15,6 @@ from planner.language.object_classes import KINDS
 from planner.navigation import RouteFailure
 from planner.perception.failure import VisionFailure
 from planner.plan import Code
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 PAIRED = {"route_failure": RouteFailure, "vision_failure": VisionFailure}
 """Groups that a worker's failure takes whole."""

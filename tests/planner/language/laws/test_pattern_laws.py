@@ -207,7 +207,10 @@ def test_no_repeated_words_hang_at_the_door(seed: int) -> None:
     "word",
     [*["喂", "哎", "诶", "啊哎呀", "先给我", "去", "到", "回", "在", "去找", "然后去", "劳驾你"],
      *["麻烦你", "刚", "刚刚", "真的", "那就", "多少个", "and ", "in the ", "x, unless x", " "],
-     *["\t", ", aa", ",", "停", "stop "]],
+     *["\t", ", aa", ",", "停", "stop ", "wait no ", "no wait ", "not that ", "and then "],
+     *["please ", "again ", "i meant ", "不是", "不对，", "不，", "去厨房再", "你好", "找", "等"],
+     *["go to the kitchen and ", "from ", "go from a to ", 'say "', "再", "the ", "get get "],
+     *["i want you to ", "能吗", "( ", "1", "a in "]],
 )  # fmt: skip
 @pytest.mark.parametrize("length", LENGTHS)
 def test_words_that_people_shout_over_and_over_are_read(word: str, length: int) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -14,9 +14,6 @@ from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from pons_assets import DEFAULT_SITE
 from tests.planner.language.laws.replies import count_sentences, find_foreign, find_inner
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HOME = vocabulary_of(Site.load(DEFAULT_SITE))
 RUNS = RUNNABLE | {"find", "count", "look", "follow", "go_to_object"}

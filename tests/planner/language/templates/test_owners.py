@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -16,9 +16,6 @@ from planner.site import KnownPlaces, Site
 from pons_assets import DEFAULT_SITE
 from tests.planner.language.grammar.conftest import HOME
 from tools.lockstep import LockstepWorld
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 OWN = """
 [words.en]
