@@ -168,7 +168,7 @@ async def test_a_named_order_is_corrected_and_several_are_asked_about(tmp_path: 
 @pytest.mark.parametrize(
     "text", ["make it nine", "not on Sundays", "five more minutes", "snooze", "delete the red one",
              "how long have I got left", "改成九点", "周日不用", "再睡五分钟", "还有多久",
-             "把早上那个取消"],
+             "把早上那个取消", "at nine as well", "and at half past six too", "八点也要"],
 )  # fmt: skip
 async def test_what_fits_no_order_is_left_to_a_brain(tmp_path: Path, text: str) -> None:
     kept = await kept_in(tmp_path)
@@ -192,13 +192,6 @@ async def test_a_reminder_that_came_comes_again(tmp_path: Path, text: str) -> No
     assert again.rule.unix_s == pytest.approx(kept.clock.unix_s + 600.0)
     await kept.run_s(620.0, 10.0)
     assert kept.missions.told() == [("reminder", "reminder")] * 2
-
-
-@pytest.mark.parametrize("text", ["at nine as well", "and at half past six too", "八点也要"])
-async def test_a_time_with_nothing_to_do_is_left_to_a_brain(tmp_path: Path, text: str) -> None:
-    kept = await kept_in(tmp_path)
-    assert await take(kept, text) is None
-    assert orders(kept) == {}
 
 
 async def test_a_reminder_that_waits_comes_later(tmp_path: Path) -> None:

@@ -248,40 +248,6 @@ async def test_a_goal_that_waits_for_a_word_is_told(tmp_path: Path) -> None:
     assert kept.missions.told() == [("asks", "done")]
 
 
-async def test_a_clock_that_is_put_right_moves_what_was_counted_from_an_instant(
-    tmp_path: Path,
-) -> None:
-    kept = await kept_in(tmp_path)
-    await kept.give("remind me in 20 minutes")
-    await kept.run_s(600.0)
-    kept.clock.unix_s += 3 * 3600.0
-    await kept.run_s(590.0)
-    assert kept.missions.given == []
-    await kept.run_s(12.0)
-    assert len(kept.missions.given) == 1
-
-
-async def test_a_clock_that_is_put_back_doubles_nothing(tmp_path: Path) -> None:
-    kept = await kept_in(tmp_path)
-    await kept.give("every day at 12:01 say hello")
-    await kept.run_s(61.0)
-    kept.missions.end("goal-1")
-    await kept.turn()
-    kept.clock.unix_s -= 3600.0
-    await kept.run_s(7200.0, 1.0)
-    assert len(kept.missions.given) == 1
-
-
-async def test_a_clock_that_is_put_on_tells_what_it_passed(tmp_path: Path) -> None:
-    kept = await kept_in(tmp_path)
-    await kept.give("every day at 13:00 say hello")
-    await kept.turn()
-    kept.clock.unix_s += 2 * 3600.0
-    await kept.run_s(10.0)
-    assert kept.missions.told() == [("missed", "clock_moved")]
-    assert kept.missions.given == []
-
-
 async def test_a_clock_behind_what_was_written_down_is_not_believed_at_once(tmp_path: Path) -> None:
     kept = await kept_in(tmp_path)
     await kept.give("every day at 12:30 say hello")
