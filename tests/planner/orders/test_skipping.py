@@ -111,16 +111,20 @@ async def test_resuming_takes_the_days_back_and_a_pause_keeps_them(tmp_path: Pat
         assert kept.orders.keeper.book.orders["o1"].skipped == days, text
 
 
-async def test_an_order_upon_an_event_is_deaf_on_that_day(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("order", "text", "told"),
+    [
+        ("when somebody comes in, say hello", "don't say hello today", "not on Friday 2027-01-15"),
+        ("tomorrow at nine remind me to call Sam", "don't remind me tomorrow", "Removed: o1"),
+    ],
+    ids=["upon an event", "a single one"],
+)
+async def test_an_order_is_deaf_on_that_day_and_a_single_one_of_it_is_removed(
+    tmp_path: Path, order: str, text: str, told: str
+) -> None:
     kept = await kept_in(tmp_path)
-    await say(kept, "when somebody comes in, say hello")
-    assert "not on Friday 2027-01-15" in await say(kept, "don't say hello today")
-
-
-async def test_a_single_reminder_of_that_day_is_removed(tmp_path: Path) -> None:
-    kept = await kept_in(tmp_path)
-    await say(kept, "tomorrow at nine remind me to call Sam")
-    assert "Removed: o1" in await say(kept, "don't remind me tomorrow")
+    await say(kept, order)
+    assert told in await say(kept, text)
 
 
 @pytest.mark.parametrize("text", ["don't remind me to go tomorrow", "今天不用提醒我"])

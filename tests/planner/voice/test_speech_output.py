@@ -13,7 +13,6 @@ from planner.plan import Language
 from planner.plan.quiet_hours import QuietHours
 from planner.voice import SpeechFailure, SpeechOutput
 from planner.voice.speech_output import MAX_AGE_S, MAX_WAITING
-from tests.processes.small_worker import story
 
 EN, ZH = Language.EN, Language.ZH
 
@@ -153,7 +152,6 @@ async def test_a_voice_that_fails_is_told_once_and_the_next_sentence_has_its_tur
     assert len([each for each in caplog.records if "speech_engine" in each.message]) == 1
 
 
-@story
 async def test_a_mute_speaker_takes_everything_and_says_nothing() -> None:
     speaker = SpeechOutput(None, None)
     speaker.start()

@@ -12,7 +12,6 @@ import pytest
 
 from planner.voice import Recognition, Sound, VoiceFailure, VoiceWorker, process_client
 from processes import worker_protocol
-from tests.processes.small_worker import story
 
 SECOND = Sound(16_000, 1, bytes(32_000))
 ECHO = """
@@ -55,7 +54,6 @@ async def code_of(ears: VoiceWorker) -> str:
     return failure.value.code
 
 
-@story
 async def test_the_real_process_hears_silence_and_ends() -> None:
     pytest.importorskip("pocketsphinx")
     async with running() as ears:
@@ -69,7 +67,6 @@ async def test_the_real_process_hears_silence_and_ends() -> None:
         os.kill(pid or 0, 0)
 
 
-@story
 async def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
     async with running(*stub(TELL)) as ears:
         ears.warm()
@@ -83,7 +80,6 @@ async def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
         assert ears.pid != pid
 
 
-@story
 async def test_recordings_come_whole_and_one_after_the_other() -> None:
     async with running(*stub(TELL)) as ears:
         sounds = [Sound(16_000, 1, bytes(2 * n)) for n in (1_600, 240_000, 3)]
@@ -91,7 +87,6 @@ async def test_recordings_come_whole_and_one_after_the_other() -> None:
         assert [one.transcript for one in heard] == ["3200", "480000", "6"]
 
 
-@story
 async def test_a_fourth_at_once_is_told_to_come_again() -> None:
     async with running(*stub(TELL)) as ears:
         asked = [asyncio.create_task(ears.hear(SECOND)) for _ in range(process_client.MAX_WAITING)]
@@ -110,14 +105,12 @@ async def test_a_fourth_at_once_is_told_to_come_again() -> None:
         "write(number=head['number'], failed='RuntimeError: broken')",
     ],
 )
-@story
 async def test_a_failure_is_typed_and_the_next_order_gets_a_new_process(act: str) -> None:
     async with running(*stub(act)) as ears:
         assert await code_of(ears) == "recogniser_unavailable"
         assert await code_of(ears) == "recogniser_unavailable"
 
 
-@story
 async def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(process_client, "HEAR_S", 0.05)
     async with running(*stub("import time; time.sleep(60)")) as ears:
@@ -125,7 +118,6 @@ async def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> 
         assert ears.pid is None
 
 
-@story
 async def test_who_goes_away_leaves_no_answer_for_the_next() -> None:
     async with running(*stub("import time; time.sleep(0.2); " + TELL)) as ears:
         task = asyncio.create_task(ears.hear(SECOND))
@@ -139,7 +131,6 @@ async def test_who_goes_away_leaves_no_answer_for_the_next() -> None:
 
 
 @pytest.mark.parametrize("command", [("/no/such/program",), (sys.executable, "-S", "-c", "")])
-@story
 async def test_where_there_is_no_recogniser_it_says_so(command: tuple[str, ...]) -> None:
     async with running(*command) as ears:
         ears.warm()
