@@ -90,6 +90,7 @@ class FakeMissions:
         self.clock, self.site = clock, site_of(site)
         facts, eyes = facts_of(self.site), Eyesight(CameraConfig(), ("person", "cup"))
         self._book = MissionState(facts, status=READY, eyes=eyes, sight=Sight())
+        self._shown = self._book, self._book
         self.given: list[tuple[str, str, str, str]] = []
         self.keys: dict[str, str] = {}
         self.published: list[dict[str, Any]] = []
@@ -99,8 +100,12 @@ class FakeMissions:
 
     @property
     def book(self) -> MissionState:
-        age_s = 60.0 if self.silent else 0.0
-        return replace(self._book, status_s=self.clock.monotonic_s - age_s)
+        """Return the book of this instant, made once: a turn looks at it several times."""
+        status_s = self.clock.monotonic_s - (60.0 if self.silent else 0.0)
+        of, shown = self._shown
+        if of is not self._book or shown.status_s != status_s:
+            self._shown = self._book, replace(self._book, status_s=status_s)
+        return self._shown[1]
 
     def say_status(self, **changes: Any) -> Status:
         status = READY.model_copy(update=changes)

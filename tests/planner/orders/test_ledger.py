@@ -18,8 +18,8 @@ from planner.orders.rule import next_due
 from planner.state_database import StateDatabase, StateUnavailable
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, FakeMissions, Kept, MovedClocks, kept_in
 
-MANY = 200
-"""More moments than any story has."""
+MANY, NEVER = 200, 10**9
+"""More moments than any story has, and than all of them."""
 
 
 class Death(BaseException):
@@ -40,7 +40,7 @@ class Fate:
 
 
 class MortalDatabase(StateDatabase):
-    """Be a database whose process may die before a change, or after it."""
+    """Be a database whose process may die before a change, or after it; the machine never does."""
 
     def __init__(self, home: Path, fate: Fate) -> None:
         super().__init__(home)
@@ -49,7 +49,7 @@ class MortalDatabase(StateDatabase):
     @contextmanager
     def change(self, *, sync: bool = True) -> Iterator[sqlite3.Connection]:
         self._fate.pass_moment()
-        with super().change(sync=sync) as connection:
+        with super().change(sync=False) as connection:
             yield connection
         self._fate.pass_moment()
 
@@ -90,7 +90,7 @@ async def _die_at(home: Path, at: int) -> bool:
     """Play the story with a death at a moment and a new process after it; tell whether it came."""
     clock, fate = MovedClocks(), Fate(at)
     missions = MortalMissions(clock)
-    made = await kept_in(home, clock, missions, database=StateDatabase(home))
+    made = await kept_in(home, clock, missions, database=MortalDatabase(home, Fate(NEVER)))
     for text in ORDERS:
         await made.give(text)
     missions.fate = fate
@@ -99,7 +99,7 @@ async def _die_at(home: Path, at: int) -> bool:
         await _live(mortal)
     except Death:
         missions.fate = Fate(MANY)
-    again = await kept_in(home, clock, missions, database=StateDatabase(home))
+    again = await kept_in(home, clock, missions, database=MortalDatabase(home, Fate(NEVER)))
     if again.orders.intake.find("o2").paused:
         await again.orders.intake.pause("o2", paused=False)
     await again.run_s(4000.0, 20.0)
