@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import pytest
 from fastapi.dependencies.utils import get_dependant
 from starlette.testclient import TestClient
 
 from planner.api import Access
-from planner.app import application
+from planner.app import Planner, application
 from tests.planner.api.fakes import FakeServices
-
-if TYPE_CHECKING:
-    from planner.app import Planner
 
 
 def test_no_request_has_a_route_built(monkeypatch: pytest.MonkeyPatch) -> None:

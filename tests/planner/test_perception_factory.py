@@ -30,14 +30,11 @@ ROBOT = RobotDescription()
 BLIND = ROBOT.model_copy(update={"camera": ROBOT.camera.model_copy(update={"kind": "none"})})
 
 
-def test_without_a_camera_no_process_is_started() -> None:
-    async def story() -> None:
-        opening = Opening(VisionSettings(), BLIND)
-        await opening.open()
-        assert opening.worker.pid is None
-        assert opening.refused is None
-
-    asyncio.run(story())
+async def test_without_a_camera_no_process_is_started() -> None:
+    opening = Opening(VisionSettings(), BLIND)
+    await opening.open()
+    assert opening.worker.pid is None
+    assert opening.refused is None
 
 
 @pytest.mark.parametrize(
@@ -49,22 +46,19 @@ def test_without_a_camera_no_process_is_started() -> None:
         (None, "model_broken", 1.0, False),  # nobody set it: nobody can set it right
     ],
 )
-def test_only_a_word_about_the_owners_model_at_the_start_ends_the_planner(
+async def test_only_a_word_about_the_owners_model_at_the_start_ends_the_planner(
     model: Path | None, code: str, after_s: float, ends: bool
 ) -> None:
-    async def story() -> None:
-        now_s = [5.0]
+    now_s = [5.0]
 
-        async def start() -> None:
-            now_s[0] += after_s
-            raise VisionFailure(code)
+    async def start() -> None:
+        now_s[0] += after_s
+        raise VisionFailure(code)
 
-        opening = Opening(VisionSettings(model=model), ROBOT, clock=lambda: now_s[0])
-        opening.worker = cast("VisionWorker", SimpleNamespace(start=start))
-        await opening.open()
-        assert (opening.refused is not None) == ends
-
-    asyncio.run(story())
+    opening = Opening(VisionSettings(model=model), ROBOT, clock=lambda: now_s[0])
+    opening.worker = cast("VisionWorker", SimpleNamespace(start=start))
+    await opening.open()
+    assert (opening.refused is not None) == ends
 
 
 def test_the_owners_model_is_asked_about_pictures_and_none_without_one(tmp_path: Path) -> None:

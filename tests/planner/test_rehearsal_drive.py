@@ -29,7 +29,7 @@ from planner.rehearsal import RehearsalError, Rehearser
 from planner.rehearsal_drive import RehearsalDrives
 from planner.site import KnownPlaces
 from tests.planner.api.fakes import StraightRoutes, two_room
-from tests.processes.small_worker import LIMIT_S, story
+from tests.processes.small_worker import LIMIT_S
 from tests.wire.examples import STATUS
 from wire import Pose2, RobotDescription, Status
 
@@ -75,7 +75,6 @@ def is_alive(pid: int) -> bool:
     return True
 
 
-@story
 async def test_it_is_told_step_by_step_and_is_over_with_its_process() -> None:
     async with drives_of() as drives:
         begun = await drives.of_plan(plan(Wait(seconds=1.0), Find(object="cup"), ReturnHome()))
@@ -91,7 +90,6 @@ async def test_it_is_told_step_by_step_and_is_over_with_its_process() -> None:
         assert not drives.is_busy
 
 
-@story
 async def test_a_second_one_is_refused_while_one_runs_and_taken_after_it_was_cancelled() -> None:
     async with drives_of() as drives:
         await drives.of_plan(plan(WAITS))
@@ -105,7 +103,6 @@ async def test_a_second_one_is_refused_while_one_runs_and_taken_after_it_was_can
         await until(drives, state="done")
 
 
-@story
 async def test_two_at_once_are_one_and_a_refusal() -> None:
     async with drives_of() as drives:
         both = await asyncio.gather(
@@ -114,7 +111,6 @@ async def test_two_at_once_are_one_and_a_refusal() -> None:
         assert sorted(type(one).__name__ for one in both) == ["DrivenRehearsal", "RehearsalError"]
 
 
-@story
 async def test_no_process_is_left_when_the_planner_closes() -> None:
     async with drives_of() as drives:
         await drives.of_plan(plan(WAITS))
@@ -124,7 +120,6 @@ async def test_no_process_is_left_when_the_planner_closes() -> None:
     assert not is_alive(pid)
 
 
-@story
 async def test_a_process_that_dies_is_told_and_another_may_begin() -> None:
     async with drives_of() as drives:
         await drives.of_plan(plan(ReturnHome()))
@@ -135,7 +130,6 @@ async def test_a_process_that_dies_is_told_and_another_may_begin() -> None:
         assert not drives.is_busy
 
 
-@story
 async def test_what_has_nothing_to_drive_and_where_nobody_knows_is_refused() -> None:
     async with drives_of() as drives:
         with pytest.raises(RehearsalError, match="rehearsal_no_plan"):
@@ -148,7 +142,6 @@ async def test_what_has_nothing_to_drive_and_where_nobody_knows_is_refused() -> 
             await lost.of_text("go home")
 
 
-@story
 async def test_what_repeats_for_ever_is_driven_once() -> None:
     async with drives_of() as drives:
         begun = await drives.of_plan(plan(Repeat(steps=(Wait(seconds=1.0),), times=20)))
@@ -156,7 +149,6 @@ async def test_what_repeats_for_ever_is_driven_once() -> None:
         assert LeftOut.ROUNDS in begun.left_out
 
 
-@story
 async def test_a_map_that_is_being_made_is_not_driven_on(tmp_path: Path) -> None:
     (tmp_path / GROWING_MAP).write_bytes(b"")
     async with drives_of() as drives:

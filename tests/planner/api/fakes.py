@@ -6,7 +6,6 @@ import asyncio
 from collections.abc import AsyncIterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -43,7 +42,7 @@ from planner.state_database import StateDatabase
 from planner.tool_servers import ToolDesk
 from planner.voice import Recognition, Sound, StopListener, VoiceAbilities, VoiceFailure
 from planner.watching import PlannerFigures
-from tests.planner.orders.fakes import FakeMissions, MovedClocks, standing_orders
+from tests.planner.orders.fakes import FakeMissions, MovedClocks, site_of, standing_orders
 from tests.wire.examples import STATUS
 from wire import (
     Answer,
@@ -60,8 +59,6 @@ from wire import (
     TrialOrder,
     TrialState,
 )
-
-ROOT = Path(__file__).resolve().parents[3]
 
 
 def goal(goal_id: str = "g1", text: str = "go", state: GoalState = GoalState.RUNNING) -> Goal:
@@ -361,10 +358,8 @@ HOME = Path(_FOLDER.name)
 """A home of this process alone: what is written there, no other run reads."""
 
 
-@cache
 def two_room() -> Site:
-    """Read the site once: it is frozen, and two hundred tests begin with it."""
-    return Site.load(ROOT / "sites" / "two_room")
+    return site_of("two_room")
 
 
 class StraightRoutes:

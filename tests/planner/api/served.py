@@ -10,18 +10,16 @@ from __future__ import annotations
 from contextvars import ContextVar
 from functools import cache
 from itertools import count
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
+from fastapi import FastAPI
 from starlette.testclient import TestClient
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from planner.api import Access, build
+from planner.api.interfaces import Services
+from planner.people import Person
 from tests.planner.api.fakes import FakeServices, two_room
-
-if TYPE_CHECKING:
-    from fastapi import FastAPI
-    from starlette.types import ASGIApp, Receive, Scope, Send
-
-    from planner.api.interfaces import Services
 
 BASE = "http://127.0.0.1:8420"
 LOCAL = Access("127.0.0.1")
@@ -45,10 +43,20 @@ class Stage:
     def __init__(self) -> None:
         self.site = two_room()
         self.goals, self.robot = Part("goals"), Part("robot")
-        self.orders = Part("orders")
+        self.orders, self.people = Part("orders"), Part("people")
 
     def __getattr__(self, name: str) -> Any:
         return getattr(_AT_HAND.get(), name)
+
+
+def find_person(token: str) -> Person | None:
+    """Find who has a token among the people of the services at hand."""
+    return _AT_HAND.get().people.find(token)
+
+
+PEOPLED = Access(
+    "127.0.0.1", operator_token="o" * 20, viewer_token="v" * 20, find_person=find_person
+)
 
 
 @cache
@@ -60,6 +68,15 @@ def client_of(services: FakeServices, access: Access = LOCAL) -> TestClient:
     """Return a client of these services, with an address of its own; two at once do not meet."""
     app = app_of(services, access)
     return TestClient(app, base_url=BASE, client=(f"10.0.0.{next(_ADDRESSES)}", 50_000))
+
+
+def code(answer: Any) -> str:
+    """Return the code of a problem that is told as one."""
+    assert answer.headers["content-type"] == "application/problem+json"
+    body = answer.json()
+    assert body["status"] == answer.status_code
+    assert body["detail"]
+    return str(body["code"])
 
 
 def app_of(services: FakeServices, access: Access = LOCAL) -> ASGIApp:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,6 @@ from starlette.testclient import TestClient
 
 from planner.site import FenceProposals
 from tests.planner.api.fakes import FakeServices
-from tests.planner.api.served import client_of
 from tests.wire.examples import STATUS
 from wire import VIRTUAL_KEY, Answer, authentic_fence, sign_fence
 
@@ -26,12 +24,6 @@ def services(tmp_path: Path) -> FakeServices:
     made = FakeServices(STATUS)
     made.fences = FenceProposals.in_home(tmp_path)
     return made
-
-
-@pytest.fixture
-def client(services: FakeServices) -> Iterator[TestClient]:
-    with client_of(services) as made:
-        yield made
 
 
 def body(services: FakeServices, **changes: Any) -> dict[str, Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -12,23 +11,7 @@ from planner.api import Access
 from planner.api.goals import AT_ONCE
 from planner.plan import GoToPose, Language
 from tests.planner.api.fakes import FakeServices
-from tests.planner.api.served import client_of
-
-
-@pytest.fixture
-def services() -> FakeServices:
-    return FakeServices()
-
-
-@pytest.fixture
-def client(services: FakeServices) -> Iterator[TestClient]:
-    with client_of(services) as made:
-        yield made
-
-
-def code(answer: Any) -> str:
-    assert answer.headers["content-type"] == "application/problem+json"
-    return str(answer.json()["code"])
+from tests.planner.api.served import client_of, code
 
 
 @pytest.mark.parametrize("path", ["/v1/goals", "/v1/goals/g1/answer"])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from contextlib import ExitStack
 from dataclasses import replace
 from typing import Any
@@ -26,12 +25,6 @@ FREE = {"seq": 1, "beat": 0, "forward": 0.0, "left": 0.0, "held": False}
 
 def frame(seq: int, beat: int, *, forward: float = 0.5, held: bool = True) -> HandFrame:
     return HandFrame(seq=seq, beat=beat, forward=forward, left=0.0, held=held)
-
-
-@pytest.fixture
-def server() -> Iterator[Served]:
-    with served() as running:
-        yield running
 
 
 def opened(server: Served) -> ClientConnection:

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
-from planner.api import Access, build
 from planner.mission.effects import Journal
 from planner.mission.errors import UnknownGoal
 from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import MissionJournal
 from planner.plan import Goal, GoalState
 from tests.planner.api.fakes import FakeGoals, FakeServices
+from tests.planner.api.served import client_of
 from tests.planner.mission.test_goal_history import mission
 
 
@@ -24,7 +24,7 @@ def client(tmp_path: Path) -> TestClient:
     missions = (mission(1, "go home"), mission(2, "go to the attic", GoalState.FAILED))
     journal.write((Journal(1, missions, ()),))
     services.history = GoalHistory.in_home(tmp_path)
-    return TestClient(build(services, Access("127.0.0.1")), base_url="http://127.0.0.1")
+    return client_of(services)
 
 
 def test_the_list_is_told_page_by_page(client: TestClient) -> None:

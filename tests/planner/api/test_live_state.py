@@ -60,124 +60,106 @@ async def watched(services: FakeServices, clock: Clock) -> tuple[Feed, Listener]
         (None, 0.0, STANDING_S),
     ],
 )
-def test_robot_and_scan_come_at_their_rates_and_no_faster(
+async def test_robot_and_scan_come_at_their_rates_and_no_faster(
     mode: Mode | None, v_mps: float, robot_s: float
 ) -> None:
-    async def story() -> None:
-        services, clock = FakeServices(), Clock()
-        measured = Twist2(v_mps=v_mps, w_radps=0.0)
-        services.robot._status = (
-            None if mode is None else STATUS.model_copy(update={"mode": mode, "measured": measured})
-        )
-        feed, listener = await watched(services, clock)
-        counts = {"robot": 0, "scan": 0, "path": 0}
-        for tick in range(1, 101):
-            clock.now_s = tick * 0.02
-            feed.look()
-            if listener._waiting:
-                for frame in await taken(listener):
-                    counts[str(frame["kind"])] += 1
-        assert counts["robot"] == pytest.approx(2.0 / robot_s, abs=3)
-        assert counts["scan"] == pytest.approx(2.0 / SCAN_S, abs=2)
-        assert counts["path"] == 0
-        feed.leave(listener)
-
-    asyncio.run(story())
-
-
-def test_a_change_of_mode_is_told_at_once() -> None:
-    async def story() -> None:
-        services, clock = FakeServices(), Clock()
-        feed, listener = await watched(services, clock)
-        clock.now_s = 0.02
+    services, clock = FakeServices(), Clock()
+    measured = Twist2(v_mps=v_mps, w_radps=0.0)
+    services.robot._status = (
+        None if mode is None else STATUS.model_copy(update={"mode": mode, "measured": measured})
+    )
+    feed, listener = await watched(services, clock)
+    counts = {"robot": 0, "scan": 0, "path": 0}
+    for tick in range(1, 101):
+        clock.now_s = tick * 0.02
         feed.look()
-        assert not listener._waiting
-        services.robot._status = STATUS.model_copy(update={"mode": Mode.STOPPING})
+        if listener._waiting:
+            for frame in await taken(listener):
+                counts[str(frame["kind"])] += 1
+    assert counts["robot"] == pytest.approx(2.0 / robot_s, abs=3)
+    assert counts["scan"] == pytest.approx(2.0 / SCAN_S, abs=2)
+    assert counts["path"] == 0
+    feed.leave(listener)
+
+
+async def test_a_change_of_mode_is_told_at_once() -> None:
+    services, clock = FakeServices(), Clock()
+    feed, listener = await watched(services, clock)
+    clock.now_s = 0.02
+    feed.look()
+    assert not listener._waiting
+    services.robot._status = STATUS.model_copy(update={"mode": Mode.STOPPING})
+    feed.look()
+    frames = await taken(listener)
+    assert kinds(frames) == ["robot"]
+    assert frames[0]["robot"]["status"]["mode"] == "STOPPING"
+    feed.leave(listener)
+
+
+async def test_a_new_leg_brings_its_path_once_and_its_end_takes_it_away() -> None:
+    services, clock = FakeServices(), Clock()
+    feed, listener = await watched(services, clock)
+    points = (RoutePoint(1.00049, 2.0, 0.3), RoutePoint(1.5, 2.0, 0.3))
+    services.goals.leg = Leg("g1", 4, points)
+    feed.look()
+    feed.look()
+    [frame] = await taken(listener)
+    way = {"goal": "g1", "leg": 4, "points": [[1.0, 2.0], [1.5, 2.0]]}
+    assert frame["path"] == {**way, "doubt": None}
+    services.goals.leg = None
+    feed.look()
+    assert await taken(listener) == [{"kind": "path", "path": None}]
+    feed.leave(listener)
+
+
+async def test_why_a_way_bends_or_goes_on_is_told_with_its_path() -> None:
+    services, clock = FakeServices(), Clock()
+    feed, listener = await watched(services, clock)
+    points = (RoutePoint(1.0, 2.0, 0.3),)
+    services.goals.leg = Leg("g1", 4, points)
+    feed.look()
+    assert len(await taken(listener)) == 1
+    doubt = RouteDoubt(4, (1.006, 2.0), 1.0, 1.2, "route_kept")
+    services.goals.leg = Leg("g1", 4, points, doubt)
+    feed.look()
+    [frame] = await taken(listener)
+    news = frame["path"]["doubt"]
+    assert (news["code"], news["x_m"], news["y_m"]) == ("route_kept", 1.01, 2.0)
+    assert "no other way" in news["message"]["en"]
+    assert "没有别的路" in news["message"]["zh"]
+    services.goals.leg = Leg("g1", 4, points)
+    feed.look()
+    [over] = await taken(listener)
+    assert over["path"]["doubt"] is None
+    feed.leave(listener)
+
+
+async def test_who_is_slow_gets_the_newest_of_each_kind() -> None:
+    services, clock = FakeServices(), Clock()
+    feed, listener = await watched(services, clock)
+    for tick in range(1, 200):
+        clock.now_s = tick * 0.5
+        services.robot.points = [(float(tick), -0.004)]
         feed.look()
-        frames = await taken(listener)
-        assert kinds(frames) == ["robot"]
-        assert frames[0]["robot"]["status"]["mode"] == "STOPPING"
-        feed.leave(listener)
-
-    asyncio.run(story())
-
-
-def test_a_new_leg_brings_its_path_once_and_its_end_takes_it_away() -> None:
-    async def story() -> None:
-        services, clock = FakeServices(), Clock()
-        feed, listener = await watched(services, clock)
-        points = (RoutePoint(1.00049, 2.0, 0.3), RoutePoint(1.5, 2.0, 0.3))
-        services.goals.leg = Leg("g1", 4, points)
-        feed.look()
-        feed.look()
-        [frame] = await taken(listener)
-        way = {"goal": "g1", "leg": 4, "points": [[1.0, 2.0], [1.5, 2.0]]}
-        assert frame["path"] == {**way, "doubt": None}
-        services.goals.leg = None
-        feed.look()
-        assert await taken(listener) == [{"kind": "path", "path": None}]
-        feed.leave(listener)
-
-    asyncio.run(story())
+    frames = await taken(listener)
+    assert kinds(frames) == ["robot", "scan"]
+    [scan] = [frame["scan"] for frame in frames if frame["kind"] == "scan"]
+    assert scan == [19_900, 0]
+    feed.leave(listener)
 
 
-def test_why_a_way_bends_or_goes_on_is_told_with_its_path() -> None:
-    async def story() -> None:
-        services, clock = FakeServices(), Clock()
-        feed, listener = await watched(services, clock)
-        points = (RoutePoint(1.0, 2.0, 0.3),)
-        services.goals.leg = Leg("g1", 4, points)
-        feed.look()
-        assert len(await taken(listener)) == 1
-        doubt = RouteDoubt(4, (1.006, 2.0), 1.0, 1.2, "route_kept")
-        services.goals.leg = Leg("g1", 4, points, doubt)
-        feed.look()
-        [frame] = await taken(listener)
-        news = frame["path"]["doubt"]
-        assert (news["code"], news["x_m"], news["y_m"]) == ("route_kept", 1.01, 2.0)
-        assert "no other way" in news["message"]["en"]
-        assert "没有别的路" in news["message"]["zh"]
-        services.goals.leg = Leg("g1", 4, points)
-        feed.look()
-        [over] = await taken(listener)
-        assert over["path"]["doubt"] is None
-        feed.leave(listener)
-
-    asyncio.run(story())
-
-
-def test_who_is_slow_gets_the_newest_of_each_kind() -> None:
-    async def story() -> None:
-        services, clock = FakeServices(), Clock()
-        feed, listener = await watched(services, clock)
-        for tick in range(1, 200):
-            clock.now_s = tick * 0.5
-            services.robot.points = [(float(tick), -0.004)]
-            feed.look()
-        frames = await taken(listener)
-        assert kinds(frames) == ["robot", "scan"]
-        [scan] = [frame["scan"] for frame in frames if frame["kind"] == "scan"]
-        assert scan == [19_900, 0]
-        feed.leave(listener)
-
-    asyncio.run(story())
-
-
-def test_nobody_listening_costs_nothing() -> None:
-    async def story() -> None:
-        feed = Feed(FakeServices())
-        first, second = feed.listen(), feed.listen()
-        task = feed._task
-        assert task is not None
-        feed.leave(first)
-        await asyncio.sleep(0)
-        assert not task.done()
-        feed.leave(second)
-        await asyncio.sleep(0)
-        assert task.cancelled()
-        assert feed._task is None
-
-    asyncio.run(story())
+async def test_nobody_listening_costs_nothing() -> None:
+    feed = Feed(FakeServices())
+    first, second = feed.listen(), feed.listen()
+    task = feed._task
+    assert task is not None
+    feed.leave(first)
+    await asyncio.sleep(0)
+    assert not task.done()
+    feed.leave(second)
+    await asyncio.sleep(0)
+    assert task.cancelled()
+    assert feed._task is None
 
 
 def test_a_page_that_lost_count_gets_another_snapshot() -> None:
@@ -194,18 +176,6 @@ def test_a_page_that_lost_count_gets_another_snapshot() -> None:
         while (frame := socket.receive_json())["kind"] != "snapshot":
             seqs.append(frame["seq"])
         assert [*seqs, frame["seq"]] == list(range(1, frame["seq"] + 1))
-
-
-def test_what_is_no_order_is_said_to_be_none() -> None:
-    with (
-        client_of(FakeServices()) as client,
-        client.websocket_connect("/v1/events", headers=dict(HOST)) as socket,
-    ):
-        for text in ("[" * 900, '{"stop": 1}', '{"stop', "null", '"stop"', "x" * 2000):
-            socket.send_text(text)
-            while (frame := socket.receive_json())["kind"] != "problem":
-                pass
-            assert frame["code"] == "unknown_message", text
 
 
 def offered(token: str) -> list[str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -14,7 +13,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from planner.api import live_voice
 from planner.voice import Recognition, Sound, VoiceFailure
-from tests.planner.api.serving import Served, served
+from tests.planner.api.serving import Served
 
 RATE = '{"rate_hz": 16000}'
 PIECE = bytes(3_200)
@@ -37,12 +36,6 @@ class Played:
         self.heard += len(sound.pcm) // len(PIECE)
         self.rates.add(sound.rate_hz)
         return STOP if self.stop_at is not None and self.heard >= self.stop_at else None
-
-
-@pytest.fixture
-def server() -> Iterator[Served]:
-    with served() as running:
-        yield running
 
 
 def opened(server: Served) -> ClientConnection:
@@ -76,18 +69,18 @@ def test_a_stop_is_obeyed_before_the_recording_ends(server: Served) -> None:
     assert server.services.goals.stops == ["voice"]
 
 
-def test_what_is_no_stop_does_nothing_at_all(server: Served) -> None:
+def test_what_is_no_stop_does_nothing_at_all(shared_server: Served) -> None:
     listener = Played(None)
-    server.services.ears.listeners = [listener]
-    with opened(server) as socket:
+    shared_server.services.ears.listeners = [listener]
+    with opened(shared_server) as socket:
         socket.send('{"rate_hz": 48000}')
         for _ in range(5):
             socket.send(PIECE)
         socket.send('{"end": true}')
         assert ended(socket) == 1000
     assert (listener.heard, listener.rates) == (5, {48_000})
-    assert server.services.goals.stops == []
-    assert server.services.goals.calls == []
+    assert shared_server.services.goals.stops == []
+    assert shared_server.services.goals.calls == []
 
 
 @pytest.mark.parametrize("other", [Played(None, fails=True), Played(None, hangs=True)])
@@ -129,23 +122,23 @@ def test_a_stop_that_is_heard_after_the_last_piece_still_stops(server: Served) -
     ],
 )
 def test_what_is_no_recording_is_refused_by_its_code(
-    server: Served, frames: tuple[str | bytes, ...], code: str
+    shared_server: Served, frames: tuple[str | bytes, ...], code: str
 ) -> None:
-    server.services.ears.listeners = [Played(None)]
-    with opened(server) as socket:
+    shared_server.services.ears.listeners = [Played(None)]
+    with opened(shared_server) as socket:
         with contextlib.suppress(ConnectionClosed):
             for frame in frames:
                 socket.send(frame)
         assert told(socket)["code"] == code
         assert ended(socket) == live_voice.POLICY_VIOLATION
-    assert server.services.goals.stops == []
+    assert shared_server.services.goals.stops == []
 
 
 def test_who_says_nothing_is_not_waited_for(
-    server: Served, monkeypatch: pytest.MonkeyPatch
+    shared_server: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(live_voice, "PATIENCE_S", 0.05)
-    with opened(server) as socket:
+    with opened(shared_server) as socket:
         assert told(socket)["code"] == "voice_silent"
 
 
@@ -162,33 +155,30 @@ def test_the_oldest_of_an_address_goes_for_a_new_one(server: Served) -> None:
 
 
 def test_sound_that_trickles_holds_no_seat_for_ever(
-    server: Served, monkeypatch: pytest.MonkeyPatch
+    shared_server: Served, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(live_voice, "MOST_CLOCK_S", 0.05)
-    server.services.ears.listeners = [Played(None)]
-    with opened(server) as socket:
+    shared_server.services.ears.listeners = [Played(None)]
+    with opened(shared_server) as socket:
         socket.send(RATE)
         assert told(socket)["code"] == "voice_seat_over"
 
 
-def test_a_seat_too_many_takes_the_oldest_of_all() -> None:
-    async def sit() -> list[int]:
-        seats, over, both = live_voice.RecordingSeats(), [], asyncio.Event()
+async def test_a_seat_too_many_takes_the_oldest_of_all() -> None:
+    seats, over, both = live_voice.RecordingSeats(), [], asyncio.Event()
 
-        async def hold(number: int) -> None:
-            try:
-                async with asyncio.timeout(60.0) as limit, seats.hold(f"a{number}", limit):
-                    await asyncio.Event().wait()
-            except TimeoutError:
-                over.append(number)
-                if len(over) == 2:
-                    both.set()
+    async def hold(number: int) -> None:
+        try:
+            async with asyncio.timeout(60.0) as limit, seats.hold(f"a{number}", limit):
+                await asyncio.Event().wait()
+        except TimeoutError:
+            over.append(number)
+            if len(over) == 2:
+                both.set()
 
-        holding = [asyncio.create_task(hold(n)) for n in range(live_voice.MOST_SOCKETS + 2)]
-        await both.wait()
-        for task in holding:
-            task.cancel()
-        await asyncio.gather(*holding, return_exceptions=True)
-        return over
-
-    assert asyncio.run(sit()) == [0, 1]
+    holding = [asyncio.create_task(hold(n)) for n in range(live_voice.MOST_SOCKETS + 2)]
+    await both.wait()
+    for task in holding:
+        task.cancel()
+    await asyncio.gather(*holding, return_exceptions=True)
+    assert over == [0, 1]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from starlette.testclient import TestClient
 from maps.growing_map import GROWING_MAP
 from planner.site import KnownPlaces
 from tests.planner.api.fakes import FakeServices
-from tests.planner.api.served import client_of
 from tests.wire.examples import EXAMPLES
 from wire import HintCode, LocalizerStatus
 
@@ -24,12 +22,6 @@ def services() -> FakeServices:
     assert isinstance(said, LocalizerStatus)
     made.robot.localizer = said
     return made
-
-
-@pytest.fixture
-def client(services: FakeServices) -> Iterator[TestClient]:
-    with client_of(services) as made:
-        yield made
 
 
 HINT = "/v1/localization/hint"
@@ -110,14 +102,10 @@ def test_a_room_that_looks_alike_from_both_ends_is_told_so(
 @pytest.mark.parametrize(
     ("body", "status", "code"),
     [
-        ({}, 422, "invalid_request"),
-        ({"place": "kitchen", "point": {"x_m": 1.0, "y_m": 1.0}}, 422, "invalid_request"),
         ({"place": "attic"}, 404, "unknown_place"),
-        ({"point": {"x_m": "here", "y_m": 1.0}}, 422, "invalid_request"),
         ({"point": {"x_m": "2", "y_m": 1.0}}, 422, "invalid_request"),
         ({"point": {"x_m": True, "y_m": 1.0}}, 422, "invalid_request"),
         ({"point": {"x_m": 1.0, "y_m": 1.0, "yaw_rad": False}}, 422, "invalid_request"),
-        ({"point": {"x_m": 1e9, "y_m": 1.0}}, 422, "invalid_request"),
     ],
 )
 def test_what_is_no_place_is_refused(

@@ -13,8 +13,6 @@ from starlette.types import Message, Receive, Scope, Send
 
 from planner.api import Access
 from planner.api.middleware import FREE, LONGEST_S, MOST_ADDRESSES, Guard, Guesses
-from tests.planner.api.fakes import FakeServices
-from tests.planner.api.served import client_of
 from tests.planner.api.serving import Served, request, served
 
 TOKEN = "a token of many characters"
@@ -105,32 +103,29 @@ def test_a_right_token_is_served_while_its_address_guesses() -> None:
         ("Via: 1.1 proxy", "proxy_without_token"),
     ],
 )
-def test_what_is_refused_is_told_in_both_languages(line: str, code: str) -> None:
-    with served() as server:
-        status, said = server.ask(request("GET", "/v1/robot", b"", line))
+def test_what_is_refused_is_told_in_both_languages(
+    shared_server: Served, line: str, code: str
+) -> None:
+    status, said = shared_server.ask(request("GET", "/v1/robot", b"", line))
     assert (status, said["code"]) == (403, code)
     assert said["message"]["en"]
     assert said["message"]["zh"]
 
 
-def test_a_malformed_host_leaves_no_traceback(caplog: pytest.LogCaptureFixture) -> None:
-    with served() as server:
-        for method, path in (("GET", "/"), ("POST", "/v1/stop"), ("GET", "/v1/events")):
-            raw = request(method, path).replace(b"Host: 127.0.0.1", b"Host: [")
-            assert server.ask(raw)[1]["code"] == "foreign_host"
-        key = "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA=="
-        lines = ("Upgrade: websocket", "Sec-WebSocket-Version: 13", key)
-        upgrade = request("GET", "/v1/events", b"", *lines)
-        upgrade = upgrade.replace(b"Host: 127.0.0.1", b"Host: [")
-        with server.connect() as asking:
-            asking.sendall(upgrade.replace(b"Connection: close", b"Connection: Upgrade"))
-            assert asking.recv(65_536).startswith(b"HTTP/1.1 403")
+def test_a_malformed_host_leaves_no_traceback(
+    shared_server: Served, caplog: pytest.LogCaptureFixture
+) -> None:
+    for method, path in (("GET", "/"), ("POST", "/v1/stop"), ("GET", "/v1/events")):
+        raw = request(method, path).replace(b"Host: 127.0.0.1", b"Host: [")
+        assert shared_server.ask(raw)[1]["code"] == "foreign_host"
+    key = "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA=="
+    lines = ("Upgrade: websocket", "Sec-WebSocket-Version: 13", key)
+    upgrade = request("GET", "/v1/events", b"", *lines)
+    upgrade = upgrade.replace(b"Host: 127.0.0.1", b"Host: [")
+    with shared_server.connect() as asking:
+        asking.sendall(upgrade.replace(b"Connection: close", b"Connection: Upgrade"))
+        assert asking.recv(65_536).startswith(b"HTTP/1.1 403")
     assert "Traceback" not in caplog.text
-
-
-@pytest.fixture
-def client() -> TestClient:
-    return client_of(FakeServices())
 
 
 @pytest.mark.parametrize("asked", [("GET", "/v1/robot"), ("GET", "/none"), ("POST", "/v1/goals"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -36,12 +35,6 @@ def services(tmp_path: Path, clock: MovedClocks) -> FakeServices:
     quiet = QuietHours(22 * 60, 7 * 60)
     made.orders = standing_orders(tmp_path, clock, FakeMissions(clock, "two_room"), quiet)
     return made
-
-
-@pytest.fixture
-def client(services: FakeServices) -> Iterator[TestClient]:
-    with client_of(services) as made:
-        yield made
 
 
 def give(client: TestClient, **body: Any) -> Any:
@@ -145,8 +138,6 @@ def test_a_reminder_may_be_given_apart(client: TestClient) -> None:
         ({"text": "go to the kitchen"}, 422, "order_malformed"),
         ({"text": "every day, every hour go to the kitchen"}, 422, "order_nested"),
         ({"text": "daily at 9 say hello", "when": {"in_s": 60}}, 422, "order_nested"),
-        ({"text": "on 31 June at noon go to the kitchen"}, 422, "order_no_such_date"),
-        ({"text": "6月31号中午去厨房"}, 422, "order_no_such_date"),
         ({"text": "every day go to the kitchen"}, 422, "order_time_missing"),
         ({"text": "every day at eight"}, 422, "order_empty"),
         ({"text": "today at nine go to the kitchen"}, 422, "order_in_past"),
@@ -233,13 +224,12 @@ def test_no_more_orders_are_kept_than_a_page_can_show(
     assert len(services.orders.keeper.book.orders) == MAX_ORDERS
 
 
-@pytest.mark.slow
-def test_a_thousand_orders_at_once_are_a_few_and_each_other_says_why(
+def test_many_orders_at_once_are_a_few_and_each_other_says_why(
     client: TestClient, services: FakeServices
 ) -> None:
     answers = [
         give(client, text="say hello", when={"cron": f"{n % 60} {8 + n // 60 % 12} * * *"})
-        for n in range(1000)
+        for n in range(150)
     ]
     made = [each for each in answers if each.status_code == 201]
     assert 0 < len(made) == len(services.orders.keeper.book.orders) <= MAX_ORDERS

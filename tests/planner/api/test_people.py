@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from base64 import urlsafe_b64encode
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from pydantic import AfterValidator
 from starlette.testclient import TestClient
 
-from planner.api import Access, build
+from planner.api import Access
 from planner.api.schemas import Body, StopOrder
 from planner.people import ASKER, People, Person, Role
 from planner.state_database import StateDatabase
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import PEOPLED, client_of, find_person
 
 OWNER = {"authorization": f"Bearer {'o' * 20}"}
 
@@ -28,9 +28,7 @@ def services(tmp_path: Path) -> FakeServices:
 
 @pytest.fixture
 def client(services: FakeServices) -> TestClient:
-    access = Access("127.0.0.1", operator_token="o" * 20, viewer_token="v" * 20)
-    access = replace(access, find_person=services.people.find)
-    return TestClient(build(services, access), base_url="http://127.0.0.1")
+    return client_of(services, PEOPLED)
 
 
 def add(client: TestClient, name: str, role: str = "operator") -> dict[str, str]:
@@ -48,8 +46,9 @@ def test_what_a_person_does_is_written_down_as_theirs(
     assert services.goals.stops == ["anas-phone", "page"]
     token = ana["authorization"].removeprefix("Bearer ").encode()
     offered = ["pons.v1", f"bearer.{urlsafe_b64encode(token).decode().rstrip('=')}"]
-    at = "ws://127.0.0.1/v1/events"
-    with client.websocket_connect(at, subprotocols=offered) as socket:
+    with client.websocket_connect(
+        "/v1/events", subprotocols=offered, headers={"host": "127.0.0.1:8420"}
+    ) as socket:
         socket.send_json({"stop": True})
         while socket.receive_json()["kind"] != "stopped":
             pass
@@ -104,8 +103,7 @@ def test_a_bad_person_is_refused_with_a_code(
 
 
 def test_from_here_without_any_token_the_owner_asks(services: FakeServices) -> None:
-    access = Access("127.0.0.1", find_person=services.people.find)
-    client = TestClient(build(services, access), base_url="http://127.0.0.1")
+    client = client_of(services, Access("127.0.0.1", find_person=find_person))
     made = client.post("/v1/people", json={"name": "Ana"}).json()
     ana = {"authorization": f"Bearer {made['token']}"}
     assert client.get("/v1/people", headers=ana).json()["people"] is None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -43,12 +42,6 @@ def services(tmp_path: Path) -> FakeServices:
     made.memory = KnownPlaces(made.site, TaughtPlaces.in_home(tmp_path))
     made.memory.use(RobotSurvey(Heard(made), StraightRouter()))
     return made
-
-
-@pytest.fixture
-def client(services: FakeServices) -> Iterator[TestClient]:
-    with client_of(services) as made:
-        yield made
 
 
 def test_a_place_is_taught_listed_moved_and_forgotten(

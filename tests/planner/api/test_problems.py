@@ -31,7 +31,9 @@ WRONG: tuple[tuple[str, Any, str], ...] = (
     ("/v1/orders", {"reminder": "tea"}, "reminder 需要 when"),
     ("/v1/places", {"name": {"en": "a", "zh": "b"}, "source": "api", "room": "room_1",
                     "point": {"x_m": 1, "y_m": 1}}, "point 与 room"),
-    ("/v1/goals", {"text": 7, "source": "api"}, "应为文字"),
+    ("/v1/goals", {"text": 7, "source": "api"}, "body.text：应为文字，收到 7"),
+    ("/v1/goals", {"text": "go", "speed": 3}, "body.speed：未知的键，值为 3"),
+    ("/v1/goals", {}, "text、points 与 steps 三者给一个"),
 )  # fmt: skip
 
 
@@ -47,8 +49,10 @@ def client() -> Iterator[TestClient]:
 
 @pytest.mark.parametrize(("route", "sent", "chinese"), WRONG)
 def test_a_body_that_does_not_fit(client: TestClient, route: str, sent: Any, chinese: str) -> None:
-    said = client.post(route, json=sent).json()
-    assert said["code"] == "invalid_request"
+    answer = client.post(route, json=sent)
+    said = answer.json()
+    assert (answer.status_code, said["code"]) == (422, "invalid_request")
+    assert said["message"]["zh"].startswith("发来的内容无法接受：")
     assert chinese in said["message"]["zh"]
     assert english_in(said["message"]["zh"]) == ""
     assert said["detail"] in said["message"]["en"]

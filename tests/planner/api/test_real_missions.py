@@ -32,7 +32,7 @@ from planner.state_database import StateDatabase
 from tests.planner.api.fakes import FakeServices, two_room
 from tests.planner.api.served import BASE, app_of
 from tests.planner.mission import live
-from tests.planner.mission.live import KITCHEN, Together, run
+from tests.planner.mission.live import KITCHEN, Together
 
 OPERATOR, VIEWER = "o" * 16, "v" * 16
 ACCESS = Access("127.0.0.1", operator_token=OPERATOR, viewer_token=VIEWER)
@@ -79,33 +79,30 @@ async def later(world: Together) -> None:
     await world.until(lambda: world.bridge.seq > seq + 20)
 
 
-def test_a_viewers_yes_to_an_open_confirmation_is_refused_and_an_operators_drives(
+async def test_a_viewers_yes_to_an_open_confirmation_is_refused_and_an_operators_drives(
     tmp_path: Path,
 ) -> None:
-    async def story() -> None:
-        async with served(tmp_path, KITCHEN) as (world, operator, viewer):
-            goal = await operator.give("please say hello")
-            waits = await world.reach(goal, CONFIRMS)
-            assert waits.reason == "unasked_motion"
-            for path, body in (
-                (f"/v1/goals/{goal}/confirm", {}),
-                (f"/v1/goals/{goal}/answer", {"text": "yes"}),
-                (f"/v1/goals/{goal}/answer", {"text": "好的"}),
-                (f"/v1/goals/{goal}/resume", {}),
-                ("/v1/goals", {"text": "yes"}),
-                ("/v1/resume", {}),
-            ):
-                answer = await viewer.post(path, body)
-                assert (answer.status_code, answer.json()["code"]) == (403, "operator_needed")
-            await later(world)
-            assert world.missions.goal(goal).state is CONFIRMS
-            assert len(world.missions.goals()) == 1
-            assert world.bridge.waypoints == []
-            assert (await operator.post(f"/v1/goals/{goal}/confirm")).status_code == 200
-            await world.reach(goal, GoalState.SUCCEEDED)
-            assert world.bridge.waypoints != []
-
-    run(story())
+    async with served(tmp_path, KITCHEN) as (world, operator, viewer):
+        goal = await operator.give("please say hello")
+        waits = await world.reach(goal, CONFIRMS)
+        assert waits.reason == "unasked_motion"
+        for path, body in (
+            (f"/v1/goals/{goal}/confirm", {}),
+            (f"/v1/goals/{goal}/answer", {"text": "yes"}),
+            (f"/v1/goals/{goal}/answer", {"text": "好的"}),
+            (f"/v1/goals/{goal}/resume", {}),
+            ("/v1/goals", {"text": "yes"}),
+            ("/v1/resume", {}),
+        ):
+            answer = await viewer.post(path, body)
+            assert (answer.status_code, answer.json()["code"]) == (403, "operator_needed")
+        await later(world)
+        assert world.missions.goal(goal).state is CONFIRMS
+        assert len(world.missions.goals()) == 1
+        assert world.bridge.waypoints == []
+        assert (await operator.post(f"/v1/goals/{goal}/confirm")).status_code == 200
+        await world.reach(goal, GoalState.SUCCEEDED)
+        assert world.bridge.waypoints != []
 
 
 YES = Option(label=Bilingual(en="Yes", zh="好"), text="yes")
@@ -130,43 +127,37 @@ SELF = {
 
 
 @pytest.mark.parametrize("reply", SELF.values(), ids=SELF.keys())
-def test_a_model_that_says_yes_itself_confirms_nothing(tmp_path: Path, reply: Reply) -> None:
+async def test_a_model_that_says_yes_itself_confirms_nothing(tmp_path: Path, reply: Reply) -> None:
     """One goal waits for a person's yes, and the model does what it can to have that said."""
-
-    async def story() -> None:
-        async with served(tmp_path, KITCHEN, reply) as (world, operator, _):
-            waiting = await operator.give("please say hello")
-            await world.reach(waiting, CONFIRMS)
-            other = await operator.give("what a day")
-            await world.until(lambda: world.missions.goal(other).state is not GoalState.PLANNING)
-            await later(world)
-            assert world.missions.goal(waiting).state is CONFIRMS
-            assert world.bridge.waypoints == []
-
-    run(story())
+    async with served(tmp_path, KITCHEN, reply) as (world, operator, _):
+        waiting = await operator.give("please say hello")
+        await world.reach(waiting, CONFIRMS)
+        other = await operator.give("what a day")
+        await world.until(lambda: world.missions.goal(other).state is not GoalState.PLANNING)
+        await later(world)
+        assert world.missions.goal(waiting).state is CONFIRMS
+        assert world.bridge.waypoints == []
 
 
-def test_a_model_that_decides_upon_its_own_question_does_not_answer_it(tmp_path: Path) -> None:
+async def test_a_model_that_decides_upon_its_own_question_does_not_answer_it(
+    tmp_path: Path,
+) -> None:
     """It asks, is asked to decide, and wants to drive: the question waits, and so does the way."""
     asks = StepPlan(steps=(Ask(question="Shall I drive to the kitchen?"), Decide(question="?")))
-
-    async def story() -> None:
-        async with served(tmp_path, asks, KITCHEN) as (world, operator, viewer):
-            goal = await operator.give("please say hello")
-            await world.reach(goal, GoalState.NEEDS_CLARIFICATION)
-            await later(world)
-            assert len(world.brain.asked) == 1, "nobody has answered, so nobody decides"
-            refused = await viewer.post(f"/v1/goals/{goal}/answer", {"text": "yes"})
-            assert refused.json()["code"] == "operator_needed"
-            await later(world)
-            assert world.missions.goal(goal).state is GoalState.NEEDS_CLARIFICATION
-            await operator.post(f"/v1/goals/{goal}/answer", {"text": "perhaps"})
-            await world.until(lambda: len(world.brain.asked) == 2)
-            await world.reach(goal, CONFIRMS, *ENDED)
-            await later(world)
-            assert world.bridge.waypoints == []
-
-    run(story())
+    async with served(tmp_path, asks, KITCHEN) as (world, operator, viewer):
+        goal = await operator.give("please say hello")
+        await world.reach(goal, GoalState.NEEDS_CLARIFICATION)
+        await later(world)
+        assert len(world.brain.asked) == 1, "nobody has answered, so nobody decides"
+        refused = await viewer.post(f"/v1/goals/{goal}/answer", {"text": "yes"})
+        assert refused.json()["code"] == "operator_needed"
+        await later(world)
+        assert world.missions.goal(goal).state is GoalState.NEEDS_CLARIFICATION
+        await operator.post(f"/v1/goals/{goal}/answer", {"text": "perhaps"})
+        await world.until(lambda: len(world.brain.asked) == 2)
+        await world.reach(goal, CONFIRMS, *ENDED)
+        await later(world)
+        assert world.bridge.waypoints == []
 
 
 def conditions(deep: int) -> str:
@@ -177,19 +168,16 @@ def conditions(deep: int) -> str:
 
 
 @pytest.mark.parametrize("deep", [MAX_DEPTH + 1, 60, 5_000])
-def test_conditions_that_a_model_nests_beyond_the_bound_are_refused_as_goal_and_as_order(
+async def test_conditions_that_a_model_nests_beyond_the_bound_are_refused_as_goal_and_as_order(
     tmp_path: Path, deep: int
 ) -> None:
-    async def story() -> None:
-        async with served(tmp_path, conditions(deep)) as (world, operator, _):
-            goal = await operator.give("look after the kitchen")
-            ended = await world.reach(goal, *ENDED)
-            assert ended.outcome is not None
-            assert (ended.state, ended.outcome.code) == (GoalState.REFUSED, Code.BAD_PLAN)
-            body = {"text": "look after the kitchen", "when": {"in_s": 600}}
-            refused = await operator.post("/v1/orders", body)
-            assert (refused.status_code, refused.json()["code"]) == (422, "order_not_understood")
-            assert set(refused.json()["message"]) == {"en", "zh"}
-            assert world.bridge.waypoints == []
-
-    run(story())
+    async with served(tmp_path, conditions(deep)) as (world, operator, _):
+        goal = await operator.give("look after the kitchen")
+        ended = await world.reach(goal, *ENDED)
+        assert ended.outcome is not None
+        assert (ended.state, ended.outcome.code) == (GoalState.REFUSED, Code.BAD_PLAN)
+        body = {"text": "look after the kitchen", "when": {"in_s": 600}}
+        refused = await operator.post("/v1/orders", body)
+        assert (refused.status_code, refused.json()["code"]) == (422, "order_not_understood")
+        assert set(refused.json()["message"]) == {"en", "zh"}
+        assert world.bridge.waypoints == []

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from starlette.testclient import TestClient
 
 from tests.planner.api.fakes import FakeServices
-from tests.planner.api.served import client_of
-from tests.planner.api.test_routes import FREE, code
+from tests.planner.api.served import client_of, code
+from tests.planner.api.test_routes import FREE
 
 JSON = {"content-type": "application/json"}
 
@@ -17,12 +15,6 @@ JSON = {"content-type": "application/json"}
 @pytest.fixture
 def services() -> FakeServices:
     return FakeServices(FREE)
-
-
-@pytest.fixture
-def client(services: FakeServices) -> Iterator[TestClient]:
-    with client_of(services) as made:
-        yield made
 
 
 def test_a_sentence_is_shown_and_nothing_is_done(

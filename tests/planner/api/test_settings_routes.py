@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import socket
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from starlette.testclient import TestClient
 
-from planner.api import Access, build
 from planner.people import People, Role
 from planner.settings import FILE, Settings
 from planner.settings_desk import SettingsDesk
 from planner.state_database import StateDatabase
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import PEOPLED, client_of
 from tests.wire.examples import STATUS
 from wire import Mode
 
@@ -36,9 +35,7 @@ def services(tmp_path: Path) -> FakeServices:
 
 @pytest.fixture
 def client(services: FakeServices) -> TestClient:
-    access = Access("127.0.0.1", operator_token="o" * 20, viewer_token="v" * 20)
-    access = replace(access, find_person=services.people.find)
-    return TestClient(build(services, access), base_url="http://127.0.0.1")
+    return client_of(services, PEOPLED)
 
 
 def patch(client: TestClient, changes: dict[str, Any], revision: str = "") -> Any:

@@ -55,6 +55,7 @@ def test_every_answer_carries_a_strict_policy(client: TestClient) -> None:
         assert "default-src 'none'" in policy
         assert "script-src 'self';" in policy
         assert "unsafe" not in policy
+        assert "http" not in policy
         assert "*" not in policy
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 
 from planner.api.live_state import Feed
@@ -28,19 +27,16 @@ def test_the_route_shows_the_day_and_one_goal() -> None:
             assert socket.receive_json()["usage"] == whole
 
 
-def test_the_stream_tells_the_meter_only_when_it_moves() -> None:
-    async def story() -> None:
-        services = FakeServices()
-        feed = Feed(services, clock=lambda: 0.0)
-        listener = feed.listen()
-        feed.look()
-        await listener.take()
-        feed.look()
-        assert not listener._waiting
-        services.budget.changes, services.budget.calls = 1, 5
-        feed.look()
-        [body] = await listener.take()
-        assert json.loads("{" + body)["usage"]["today"]["calls"] == 5
-        feed.leave(listener)
-
-    asyncio.run(story())
+async def test_the_stream_tells_the_meter_only_when_it_moves() -> None:
+    services = FakeServices()
+    feed = Feed(services, clock=lambda: 0.0)
+    listener = feed.listen()
+    feed.look()
+    await listener.take()
+    feed.look()
+    assert not listener._waiting
+    services.budget.changes, services.budget.calls = 1, 5
+    feed.look()
+    [body] = await listener.take()
+    assert json.loads("{" + body)["usage"]["today"]["calls"] == 5
+    feed.leave(listener)

@@ -14,7 +14,7 @@ from planner.api.middleware import MAX_BODY_BYTES
 from planner.plan import Language
 from planner.voice import MAX_BYTES, Recognition, VoiceAbilities, VoiceFailure
 from tests.planner.api.fakes import FakeServices
-from tests.planner.api.served import client_of
+from tests.planner.api.served import client_of, code
 from tests.planner.voice.speech import wav
 from tests.wire.examples import STATUS
 
@@ -26,18 +26,6 @@ FREE = STATUS.model_copy(update={"held": None})
 @pytest.fixture
 def services() -> FakeServices:
     return FakeServices(FREE)
-
-
-@pytest.fixture
-def client(services: FakeServices) -> Iterator[TestClient]:
-    with client_of(services) as made:
-        yield made
-
-
-def code(answer: Any) -> str:
-    assert answer.headers["content-type"] == "application/problem+json"
-    assert answer.json()["detail"]
-    return str(answer.json()["code"])
 
 
 @pytest.mark.parametrize("kind", ["audio/wav", "audio/x-wav", "audio/wav; codecs=1", "Audio/WAVE"])

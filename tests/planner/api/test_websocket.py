@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterator
 from contextlib import ExitStack
 from typing import Any
 
@@ -13,13 +12,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from planner.api.websocket import AT_ONCE, MOST_OF_AN_ADDRESS, MOST_SOCKETS, SNAPSHOT_S, Seats
-from tests.planner.api.serving import Served, served
-
-
-@pytest.fixture
-def server() -> Iterator[Served]:
-    with served() as running:
-        yield running
+from tests.planner.api.serving import Served
 
 
 def opened(server: Served) -> ClientConnection:
@@ -41,11 +34,15 @@ def test_a_stop_is_a_stop_in_either_kind_of_frame(server: Served, frame: str | b
     assert server.services.goals.stops == ["page"]
 
 
-@pytest.mark.parametrize("frame", [b"\xff\xfe\x00", b"", b"[]", b'{"stop": 1}', b"x" * 2_000, ""])
+@pytest.mark.parametrize(
+    "frame",
+    [b"\xff\xfe\x00", b"", b"[]", b'{"stop": 1}', b"x" * 2_000, "", "[" * 900, '{"stop', "null",
+     '"stop"'],
+)  # fmt: skip
 def test_what_can_not_be_read_is_told_so_and_the_socket_stays(
-    server: Served, frame: bytes, caplog: pytest.LogCaptureFixture
+    shared_server: Served, frame: str | bytes, caplog: pytest.LogCaptureFixture
 ) -> None:
-    with opened(server) as socket:
+    with opened(shared_server) as socket:
         socket.send(frame)
         assert until(socket, "problem")["code"] == "unknown_message"
         socket.send('{"stop": true}')
@@ -53,8 +50,8 @@ def test_what_can_not_be_read_is_told_so_and_the_socket_stays(
     assert "Traceback" not in caplog.text
 
 
-def test_snapshots_that_are_asked_for_at_once_are_one_a_second(server: Served) -> None:
-    with opened(server) as socket:
+def test_snapshots_that_are_asked_for_at_once_are_one_a_second(shared_server: Served) -> None:
+    with opened(shared_server) as socket:
         until(socket, "snapshot")
         began_s = time.monotonic()
         socket.send('{"snapshot": true}')
@@ -69,8 +66,8 @@ def test_snapshots_that_are_asked_for_at_once_are_one_a_second(server: Served) -
         assert kinds.count("snapshot") == 0, "thirty were one"
 
 
-def test_who_sends_too_much_is_told_and_closed(server: Served) -> None:
-    with opened(server) as socket:
+def test_who_sends_too_much_is_told_and_closed(shared_server: Served) -> None:
+    with opened(shared_server) as socket:
         for _ in range(AT_ONCE + 20):
             socket.send("{}")
         while until(socket, "problem")["code"] != "too_many_messages":

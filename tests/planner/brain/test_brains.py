@@ -106,17 +106,14 @@ def test_an_empty_script_refuses_to_start() -> None:
         ScriptedBrain(replies=[])
 
 
-def test_a_brain_that_hangs_can_be_cancelled(home: Vocabulary) -> None:
-    async def story() -> None:
-        brain = ScriptedBrain(replies=[], hangs=True)
-        thinking = asyncio.create_task(brain.think(ThinkRequest(text="x", vocabulary=home)))
-        await asyncio.sleep(0)  # one turn of the loop: the brain has been asked and waits
-        assert brain.asked
-        thinking.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await thinking
-
-    asyncio.run(story())
+async def test_a_brain_that_hangs_can_be_cancelled(home: Vocabulary) -> None:
+    brain = ScriptedBrain(replies=[], hangs=True)
+    thinking = asyncio.create_task(brain.think(ThinkRequest(text="x", vocabulary=home)))
+    await asyncio.sleep(0)  # one turn of the loop: the brain has been asked and waits
+    assert brain.asked
+    thinking.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await thinking
 
 
 def test_the_door_opens_every_name_it_lists_and_no_other() -> None:

@@ -166,22 +166,19 @@ def test_bad_plans_rest_nobody(home: Vocabulary) -> None:
     assert len(model.asked) == 2 * TRIPS
 
 
-def test_one_trial_at_a_time_and_a_cancelled_one_says_nothing(home: Vocabulary) -> None:
-    async def story() -> None:
-        clock = Clock()
-        model = ScriptedBrain([], hangs=True)
-        brain = FallbackBrain(model, OfflineBrain(), clock)
-        brain.breaker.note_failure(clock.now_s, hopeless=True)
-        clock.now_s += FIRST_REST_S
-        request = ThinkRequest(text="go to the kitchen", vocabulary=home)
-        trial = asyncio.create_task(brain.think(request))
-        await asyncio.sleep(0)
-        assert (await brain.think(request)).brain.fallback_reason == "resting"
-        trial.cancel()
-        await asyncio.gather(trial, return_exceptions=True)
-        assert brain.breaker.lets(clock.now_s)
-
-    asyncio.run(story())
+async def test_one_trial_at_a_time_and_a_cancelled_one_says_nothing(home: Vocabulary) -> None:
+    clock = Clock()
+    model = ScriptedBrain([], hangs=True)
+    brain = FallbackBrain(model, OfflineBrain(), clock)
+    brain.breaker.note_failure(clock.now_s, hopeless=True)
+    clock.now_s += FIRST_REST_S
+    request = ThinkRequest(text="go to the kitchen", vocabulary=home)
+    trial = asyncio.create_task(brain.think(request))
+    await asyncio.sleep(0)
+    assert (await brain.think(request)).brain.fallback_reason == "resting"
+    trial.cancel()
+    await asyncio.gather(trial, return_exceptions=True)
+    assert brain.breaker.lets(clock.now_s)
 
 
 _EVENTS = st.lists(

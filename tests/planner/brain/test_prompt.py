@@ -15,13 +15,11 @@ from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
 from planner.brain.prompt import BUDGET_TOKENS, Prompt
 from planner.brain.prompt_tokens import tokens
 from planner.brain.schema import schema_of, step_line, step_models
-from planner.brain.situation import RecentGoal, RememberedItem, Situation
 from planner.plan import EVERY_KIND, RUNNABLE, Bilingual, Entry, Language, Vocabulary
 from planner.plan.order_steps import ORDER_STEPS
-from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from pons_assets import PROMPTS
-from tests.conftest import ROOT
+from tests.planner.orders.fakes import site_of
 from wire import ConfigError
 
 HASHES = {1: "6cd21f03e432", 2: "2d9e19648d6c", 3: "feca617e9515", 4: "b6c285b8b629",
@@ -37,7 +35,7 @@ def test_a_version_means_one_text() -> None:
 
 
 def test_the_default_site_is_within_the_budget() -> None:
-    vocabulary = vocabulary_of(Site.load(ROOT / "sites" / "home"))
+    vocabulary = vocabulary_of(site_of("home"))
     order = "first go to the living room, then wait ten seconds and come back to the kitchen " * 2
     request = ThinkRequest(
         text=order, vocabulary=vocabulary, room="living_room", language=Language.EN
@@ -87,37 +85,8 @@ def test_each_example_is_a_reply_that_this_robot_takes(home: Vocabulary) -> None
             assert not isinstance(plan, Unusable), (written, plan)
 
 
-def test_what_does_not_change_comes_first_and_the_order_last(home: Vocabulary) -> None:
-    vocabulary = vocabulary_of(Site.load(ROOT / "sites" / "home"))
-    seen = RememberedItem(what="red cup", place="kitchen", minutes=2, fits=True)
-    sent = [
-        "".join(
-            message["content"]
-            for message in Prompt.load().messages(
-                ThinkRequest(
-                    text=text,
-                    vocabulary=vocabulary,
-                    language=language,
-                    runnable=EVERY_KIND,
-                    situation=Situation(
-                        time=f"Sun 2026-11-29 02:1{number}", battery=0.9, room="study",
-                        recent=(RecentGoal(order=text, outcome="arrived", told="x" * 80),) * 5,
-                        remembered=(seen,) * 3,
-                    ),
-                )
-            )
-        ).encode()
-        for number, (text, language) in enumerate(
-            (("go to the study", Language.EN), ("去厨房看看有没有人", Language.ZH))
-        )
-    ]  # fmt: skip
-    shared = next(i for i, (a, b) in enumerate(zip(*sent, strict=False)) if a != b)
-    assert min(shared / len(each) for each in sent) >= 0.75
-    assert sent[0].endswith(b'"order":"go to the study"}')
-
-
 def test_places_stand_below_their_rooms_and_home_is_named() -> None:
-    vocabulary = vocabulary_of(Site.load(ROOT / "sites" / "home"))
+    vocabulary = vocabulary_of(site_of("home"))
     request = ThinkRequest(text="go home", vocabulary=vocabulary, runnable=EVERY_KIND)
     lines = Prompt.load().messages(request)[0]["content"].splitlines()
     heads = [

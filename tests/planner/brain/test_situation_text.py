@@ -24,9 +24,8 @@ from planner.brain.situation import (
 )
 from planner.brain.situation_text import MAX_REMEMBERED, tell_situation
 from planner.plan import EVERY_KIND, NEEDS_GROWING_MAP, RUNNABLE, Language
-from planner.site import Site
 from planner.site.site_view import vocabulary_of
-from tests.conftest import ROOT
+from tests.planner.orders.fakes import site_of
 
 ARRIVED = RecentGoal(
     order="go to the living room", outcome="arrived", told="Arrived: living room.", minutes=12
@@ -66,10 +65,10 @@ KINDS = (
 
 
 def sent(situation: Situation | None, text: str = "no, I meant the other one") -> list[Any]:
-    vocabulary = vocabulary_of(Site.load(ROOT / "sites" / "home"))
     asked = ThinkRequest(
-        text=text, vocabulary=vocabulary, room="study", runnable=EVERY_KIND - NEEDS_GROWING_MAP,
-        language=Language.EN, situation=situation, kinds=KINDS,
+        text=text, vocabulary=vocabulary_of(site_of("home")), room="study",
+        runnable=EVERY_KIND - NEEDS_GROWING_MAP, language=Language.EN, situation=situation,
+        kinds=KINDS,
     )  # fmt: skip
     return Prompt.load().messages(asked)
 
@@ -183,7 +182,7 @@ def test_three_quarters_of_two_requests_are_one_prefix(
     site: str, kinds: frozenset[str], goals: int
 ) -> None:
     """Bytes that stand first and never change are read once by a server that keeps prefixes."""
-    vocabulary, asked = vocabulary_of(Site.load(ROOT / "sites" / site)), []
+    vocabulary, asked = vocabulary_of(site_of(site)), []
     for n, text in enumerate(ORDERS):
         recent = (RecentGoal(order=text, outcome="arrived", told="x" * 80),) * goals
         situation = Situation(
@@ -197,6 +196,7 @@ def test_three_quarters_of_two_requests_are_one_prefix(
             text=text, vocabulary=vocabulary, runnable=kinds, situation=situation if goals else None
         )
         asked.append("".join(m["content"] for m in Prompt.load().messages(request)).encode())
+    assert asked[0].endswith(b'"order":"go to the study"}')
     for one, other in combinations(asked, 2):
         same = sum(takewhile(bool, map(eq, one, other)))
         assert same >= 0.75 * max(len(one), len(other))

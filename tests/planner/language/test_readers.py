@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -33,15 +32,12 @@ from planner.language.reading import (
     HaltReading,
     OrdersReading,
 )
-from planner.language.sentence import parse
+from planner.language.schedule import OrderCommand
+from planner.language.sentence import SaidSentence, parse
 from planner.plan import EVERY_KIND, AnswerPlan, ChangedOrder, Clarify, Code, Refuse, StepPlan
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from tests.conftest import ROOT
-
-if TYPE_CHECKING:
-    from planner.language.schedule import OrderCommand
-    from planner.language.sentence import SaidSentence
 
 HOME = vocabulary_of(Site.load(ROOT / "sites" / "home"))
 CHANGE = ChangeReading(ChangedOrder(words="go to the study"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -20,7 +21,9 @@ from planner.orders.factory import StandingOrders
 from planner.orders.intake import OrderIntake
 from planner.orders.interfaces import OrderClocks
 from planner.orders.keeper import OrderKeeper
+from planner.orders.new_order import order_of_text
 from planner.orders.notifier import Notifier
+from planner.orders.order import StandingOrder
 from planner.orders.store import OrderStore
 from planner.perception.snapshot import Sight
 from planner.plan import (
@@ -45,6 +48,12 @@ BERLIN = ZoneInfo("Europe/Berlin")
 NOON_UNIX_S = 1_800_010_800.0
 """2027-01-15, 12:00 in Berlin, a Friday."""
 READY = STATUS.model_copy(update={"mode": Mode.HOLD, "held": None, "rows": ()})
+
+
+@cache
+def site_of(name: str) -> Site:
+    """Read a site once: it is frozen, and hundreds of tests begin with it."""
+    return Site.load(ROOT / "sites" / name)
 
 
 @dataclass
@@ -78,9 +87,10 @@ class FakeMissions:
     """Think with the offline brain; keep each goal that is given, and end it when told."""
 
     def __init__(self, clock: MovedClocks, site: str = "home") -> None:
-        self.clock, self.site = clock, Site.load(ROOT / "sites" / site)
+        self.clock, self.site = clock, site_of(site)
         facts, eyes = facts_of(self.site), Eyesight(CameraConfig(), ("person", "cup"))
         self._book = MissionState(facts, status=READY, eyes=eyes, sight=Sight())
+        self._shown = self._book, self._book
         self.given: list[tuple[str, str, str, str]] = []
         self.keys: dict[str, str] = {}
         self.published: list[dict[str, Any]] = []
@@ -90,8 +100,12 @@ class FakeMissions:
 
     @property
     def book(self) -> MissionState:
-        age_s = 60.0 if self.silent else 0.0
-        return replace(self._book, status_s=self.clock.monotonic_s - age_s)
+        """Return the book of this instant, made once: a turn looks at it several times."""
+        status_s = self.clock.monotonic_s - (60.0 if self.silent else 0.0)
+        of, shown = self._shown
+        if of is not self._book or shown.status_s != status_s:
+            self._shown = self._book, replace(self._book, status_s=status_s)
+        return self._shown[1]
 
     def say_status(self, **changes: Any) -> Status:
         status = READY.model_copy(update=changes)
@@ -163,6 +177,9 @@ class Kept:
     orders: StandingOrders
     missions: FakeMissions
     clock: MovedClocks
+
+    async def give(self, text: str) -> StandingOrder:
+        return await self.orders.intake.give(order_of_text(text, None, "test"), "thought")
 
     async def turn(self, seconds: float = 0.1) -> None:
         """Let time pass, tick once and do what follows."""

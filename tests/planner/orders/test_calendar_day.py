@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from datetime import datetime, timedelta
 from pathlib import Path
 
@@ -128,29 +127,23 @@ def test_a_number_of_a_thing_is_no_day(text: str) -> None:
           "on 2027-01-22 at 06:00 remind me to call Tom"]),
     ],
 )  # fmt: skip
-def test_next_friday_is_asked_about_where_people_mean_either(
+async def test_next_friday_is_asked_about_where_people_mean_either(
     tmp_path: Path, text: str, offers: list[str]
 ) -> None:
-    async def story() -> None:
-        kept = await kept_in(tmp_path, MovedClocks(unix_s=NOON_UNIX_S - 2 * 86_400.0))
-        with pytest.raises(OrderQuestion) as question:
-            await kept.orders.intake.give(order_of_text(text, None, "api"), "g-1")
-        assert [option.text for option in question.value.asked.options] == offers
-        assert kept.orders.keeper.book.orders == {}
-        await kept.orders.intake.give(order_of_text(offers[1], None, "api"), "g-2")
-        [order] = kept.orders.keeper.book.orders.values()
-        assert order.order in ("go to the kitchen", "say “call Tom”")
-
-    asyncio.run(story())
+    kept = await kept_in(tmp_path, MovedClocks(unix_s=NOON_UNIX_S - 2 * 86_400.0))
+    with pytest.raises(OrderQuestion) as question:
+        await kept.orders.intake.give(order_of_text(text, None, "api"), "g-1")
+    assert [option.text for option in question.value.asked.options] == offers
+    assert kept.orders.keeper.book.orders == {}
+    await kept.orders.intake.give(order_of_text(offers[1], None, "api"), "g-2")
+    [order] = kept.orders.keeper.book.orders.values()
+    assert order.order in ("go to the kitchen", "say “call Tom”")
 
 
 @pytest.mark.parametrize("day", [4, 5, 6])
-def test_next_friday_is_one_day_from_a_friday_on(tmp_path: Path, day: int) -> None:
-    async def story() -> None:
-        kept = await kept_in(tmp_path, MovedClocks(unix_s=NOON_UNIX_S + (day - 4) * 86_400.0))
-        new = order_of_text("next Friday at six go to the kitchen", None, "api")
-        order = await kept.orders.intake.give(new, "g-1")
-        assert isinstance(order.rule, AtRule)
-        assert order.rule.unix_s == at("2027-01-22T06:00")
-
-    asyncio.run(story())
+async def test_next_friday_is_one_day_from_a_friday_on(tmp_path: Path, day: int) -> None:
+    kept = await kept_in(tmp_path, MovedClocks(unix_s=NOON_UNIX_S + (day - 4) * 86_400.0))
+    new = order_of_text("next Friday at six go to the kitchen", None, "api")
+    order = await kept.orders.intake.give(new, "g-1")
+    assert isinstance(order.rule, AtRule)
+    assert order.rule.unix_s == at("2027-01-22T06:00")

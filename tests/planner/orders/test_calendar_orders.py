@@ -20,9 +20,9 @@ from planner.orders.order import StandingOrder
 from planner.orders.rule import coming_runs
 from planner.plan import Language
 from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule, WorldEvent
-from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, Kept, kept_in
+from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, kept_in
 from tests.planner.orders.player import order
-from tests.planner.orders.test_intake import say, tell
+from tests.planner.orders.test_intake import say
 
 TODAY = date(2027, 1, 15)
 DAYS = st.sets(st.integers(0, 6), min_size=1)
@@ -164,43 +164,41 @@ def test_any_text_is_read_or_refused(text: str) -> None:
         read_orders(f"BEGIN:VCALENDAR\n{text}\nEND:VCALENDAR", BERLIN, NOON_UNIX_S, "api")
 
 
-def test_nothing_of_a_file_is_kept_before_a_yes_to_just_that(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        await say(kept, "every evening at eight go to the kitchen")
-        await say(kept, "when somebody comes in, say hello")
-        await say(kept, "not tomorrow")
-        keeper = kept.orders.keeper
-        text = write_orders(keeper.book.orders.values(), BERLIN, NOON_UNIX_S)
-        own = await propose(text, keeper, kept.orders.intake, "api", "g")
-        assert [p.refused.code for p in own.proposals if p.refused] == ["calendar_kept"] * 2
-        other = await kept_in(tmp_path / "other", kept.clock)
-        desk = other.orders.intake
+async def test_nothing_of_a_file_is_kept_before_a_yes_to_just_that(tmp_path: Path) -> None:
+    kept = await kept_in(tmp_path)
+    await say(kept, "every evening at eight go to the kitchen")
+    await say(kept, "when somebody comes in, say hello")
+    await say(kept, "not tomorrow")
+    keeper = kept.orders.keeper
+    text = write_orders(keeper.book.orders.values(), BERLIN, NOON_UNIX_S)
+    own = await propose(text, keeper, kept.orders.intake, "api", "g")
+    assert [p.refused.code for p in own.proposals if p.refused] == ["calendar_kept"] * 2
+    other = await kept_in(tmp_path / "other", kept.clock)
+    desk = other.orders.intake
 
-        async def told() -> ImportedCalendar:
-            return await propose(text, other.orders.keeper, desk, "api", "g")
+    async def told() -> ImportedCalendar:
+        return await propose(text, other.orders.keeper, desk, "api", "g")
 
-        imported = await told()
-        assert other.orders.keeper.book.orders == {}
-        with pytest.raises(OrderRefusal, match="calendar_changed"):
-            await keep_proposed(imported, "0" * 32, desk, "g")
-        assert other.orders.keeper.book.orders == {}
-        await keep_proposed(await told(), imported.digest, desk, "g")
-        again = [replace_id(o) for o in other.orders.keeper.book.orders.values()]
-        assert again == [replace_id(o) for o in keeper.book.orders.values()]
-
-    tell(tmp_path, story)
+    imported = await told()
+    assert other.orders.keeper.book.orders == {}
+    with pytest.raises(OrderRefusal, match="calendar_changed"):
+        await keep_proposed(imported, "0" * 32, desk, "g")
+    assert other.orders.keeper.book.orders == {}
+    await keep_proposed(await told(), imported.digest, desk, "g")
+    again = [replace_id(o) for o in other.orders.keeper.book.orders.values()]
+    assert again == [replace_id(o) for o in keeper.book.orders.values()]
 
 
 def replace_id(kept: StandingOrder) -> StandingOrder:
     return kept.model_copy(update={"id": "o", "number": 0, "nonce": "", "source": "api"})
 
 
-def test_an_entry_that_the_brain_does_not_understand_is_told_and_not_kept(tmp_path: Path) -> None:
-    async def story(kept: Kept) -> None:
-        text = event(START, "RRULE:FREQ=DAILY").replace("go to the kitchen", "Dentist")
-        imported = await propose(text, kept.orders.keeper, kept.orders.intake, "api", "g")
-        assert [p.new for p in imported.proposals] == [None]
-        assert await keep_proposed(imported, imported.digest, kept.orders.intake, "g") == ()
-        assert replace(imported, digest="").proposals[0].refused is not None
-
-    tell(tmp_path, story)
+async def test_an_entry_that_the_brain_does_not_understand_is_told_and_not_kept(
+    tmp_path: Path,
+) -> None:
+    kept = await kept_in(tmp_path)
+    text = event(START, "RRULE:FREQ=DAILY").replace("go to the kitchen", "Dentist")
+    imported = await propose(text, kept.orders.keeper, kept.orders.intake, "api", "g")
+    assert [p.new for p in imported.proposals] == [None]
+    assert await keep_proposed(imported, imported.digest, kept.orders.intake, "g") == ()
+    assert replace(imported, digest="").proposals[0].refused is not None

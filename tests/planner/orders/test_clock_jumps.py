@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from datetime import datetime
 from itertools import pairwise
 from pathlib import Path
@@ -11,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.orders.new_order import order_of_text
 from planner.orders.rule import is_quiet, next_due, settle
 from planner.orders.scheduler import BACK_S, CLOCK_MOVED, LATE, LATE_S, STEP_S, UNSET_S, WAS_OFF
 from planner.plan import QuietHours
@@ -264,21 +262,19 @@ def test_why_a_run_is_missed_is_told_by_what_came_between() -> None:
         assert (life.fired, life.reasons) == ([], [why])
 
 
-def test_a_suspended_hour_is_an_hour_for_what_was_counted_from_an_instant(tmp_path: Path) -> None:
+async def test_a_suspended_hour_is_an_hour_for_what_was_counted_from_an_instant(
+    tmp_path: Path,
+) -> None:
     """Monotonic time stands in it, elapsed time goes on: the reminder is told as missed at once."""
-
-    async def story() -> None:
-        kept = await kept_in(tmp_path)
-        for text in ("remind me in 20 minutes to take the cake out", "in 90 minutes say hello"):
-            await kept.orders.intake.give(order_of_text(text, None, "test"), "thought")
-        await kept.run_s(600.0, 10.0)
-        kept.clock.suspend(HOUR_S)
-        await kept.turn()
-        assert kept.missions.told() == [("missed", "late")]
-        assert kept.missions.given == []
-        await kept.run_s(1190.0, 1.0)  # 70 minutes are over, and 19.8
-        assert kept.missions.given == []
-        await kept.run_s(12.0, 1.0)
-        assert [text for _, text, *_ in kept.missions.given] == ["say hello"]
-
-    asyncio.run(story())
+    kept = await kept_in(tmp_path)
+    for text in ("remind me in 20 minutes to take the cake out", "in 90 minutes say hello"):
+        await kept.give(text)
+    await kept.run_s(600.0, 10.0)
+    kept.clock.suspend(HOUR_S)
+    await kept.turn()
+    assert kept.missions.told() == [("missed", "late")]
+    assert kept.missions.given == []
+    await kept.run_s(1190.0, 1.0)  # 70 minutes are over, and 19.8
+    assert kept.missions.given == []
+    await kept.run_s(12.0, 1.0)
+    assert [text for _, text, *_ in kept.missions.given] == ["say hello"]

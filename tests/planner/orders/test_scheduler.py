@@ -91,16 +91,6 @@ def test_no_jump_of_the_clock_fires_one_run_twice(
     assert len(again) <= 1 + len(jumps) * 2
 
 
-def test_a_burst_is_never_run() -> None:
-    life = Player({f"o{n}": order(n, CronRule(cron="*/5 * * * *")) for n in range(8)})
-    life.start()
-    life.tick()
-    life.pass_s(86_400.0)  # the machine slept
-    life.tick()
-    assert len(life.fired) <= 8
-    assert sum(count for _, _, _, count in life.told) + len(life.fired) == 8 * 288
-
-
 def test_a_relative_order_given_on_an_unset_clock_keeps_its_time() -> None:
     life = Player({})
     life.book = replace(OrderBook(BERLIN), floor_unix_s=NOON_UNIX_S + 5000.0)

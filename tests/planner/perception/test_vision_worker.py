@@ -115,7 +115,6 @@ async def test_pictures_of_several_directions_become_one(
     assert await code_of(broken) == "picture_not_known"
 
 
-@story
 async def test_what_becomes_of_the_process_has_a_code_of_the_eyes(model: Path) -> None:
     worker = VisionWorker(VisionSettings(model=model), tiny_process.MODULE)
     await worker.start(LIMIT_S)
@@ -132,7 +131,6 @@ async def test_what_becomes_of_the_process_has_a_code_of_the_eyes(model: Path) -
         await worker.close()
 
 
-@story
 async def test_an_open_vocabulary_model_looks_beside_ours_where_it_is_asked(
     tmp_path: Path,
 ) -> None:
@@ -159,7 +157,6 @@ async def test_an_open_vocabulary_model_looks_beside_ours_where_it_is_asked(
         name_kinds({})
 
 
-@story
 async def test_a_refused_model_is_refused_at_start_with_its_code(tmp_path: Path) -> None:
     (tmp_path / "m.onnx").write_text("weights")
     worker = VisionWorker(VisionSettings(model=tmp_path / "m.onnx"))
@@ -168,7 +165,6 @@ async def test_a_refused_model_is_refused_at_start_with_its_code(tmp_path: Path)
     assert await code_of(worker.look(image(JPEG), None)) == "model_not_onnx"
 
 
-@story
 @pytest.mark.parametrize("floats", [1 << 30])
 async def test_a_graph_of_a_few_bytes_that_asks_for_all_memory_is_refused(
     tmp_path: Path, floats: int
@@ -180,7 +176,6 @@ async def test_a_graph_of_a_few_bytes_that_asks_for_all_memory_is_refused(
     assert worker.pid is None
 
 
-@story
 async def test_without_a_model_pictures_are_still_made_small() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("planner.perception.process_client.DEFAULT_MODEL", Path("nowhere.onnx"))

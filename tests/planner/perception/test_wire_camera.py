@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import pytest
 
 from planner.perception.frame_source import WireCamera
 from wire import keys as k
-
-if TYPE_CHECKING:
-    from wire.keys import Key
-    from wire.session import Session
+from wire.keys import Key
+from wire.session import Session
 
 
 @dataclass

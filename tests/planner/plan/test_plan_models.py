@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from planner.language.catalogue import message, template
+from planner.language.catalogue import message
 from planner.language.place_lists import known_places, rejection_outcome
 from planner.plan import (
     CALLS,
@@ -34,7 +34,6 @@ from planner.plan import (
     Language,
     Option,
     Outcome,
-    PauseReason,
     PlanRejection,
     Spot,
     Step,
@@ -168,9 +167,9 @@ def rejected(steps: tuple[Any, ...]) -> PlanRejection:
     return verdict
 
 
-def test_a_plan_of_known_places_passes() -> None:
-    plan = StepPlan(steps=(GoTo(place="kitchen"), Wait(seconds=1.0)))
-    assert check_plan(plan, HOME) is None
+def test_a_plan_of_known_places_passes_up_to_twenty_steps() -> None:
+    steps = (GoTo(place="kitchen"), Wait(seconds=1.0)) * 10
+    assert check_plan(StepPlan(steps=steps), HOME) is None
 
 
 def test_unknown_place_is_refused_and_names_what_exists() -> None:
@@ -187,11 +186,6 @@ def test_empty_and_long_plans_are_refused(count: int) -> None:
     assert rejection_outcome(verdict, HOME).code is Code.BAD_PLAN
     assert str(count) in rejection_outcome(verdict, HOME).message.en
     assert not re.search("[a-z]{2}", rejection_outcome(verdict, HOME).message.zh)
-
-
-def test_twenty_steps_pass() -> None:
-    plan = StepPlan(steps=(GoTo(place="kitchen"),) * 20)
-    assert check_plan(plan, HOME) is None
 
 
 @pytest.mark.parametrize("step", STEPS, ids=lambda step: str(step["kind"]))
@@ -228,21 +222,6 @@ def test_answers_and_questions_pass_untouched() -> None:
     question = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="?", zh="？"))
     assert check_plan(answer, HOME) is None
     assert check_plan(question, HOME) is None
-
-
-@pytest.mark.parametrize("code", list(Code))
-def test_every_code_has_a_sentence_with_the_same_blanks_in_both_languages(code: Code) -> None:
-    sentence = template(code)
-    blanks = [sorted(set(re.findall(r"{(\w+)}", text))) for text in (sentence.en, sentence.zh)]
-    assert blanks[0] == blanks[1]
-    filled = message(code, **dict.fromkeys(blanks[0], "x{y}"))
-    assert filled.en
-    assert filled.zh
-
-
-def test_a_message_without_its_fact_is_an_error() -> None:
-    with pytest.raises(KeyError):
-        message(Code.ARRIVED)
 
 
 def test_ids_must_be_unique() -> None:
@@ -291,12 +270,8 @@ def test_clarify_record_keeps_its_options() -> None:
     assert plan_record(asked).code is Code.AMBIGUOUS
 
 
-def test_pause_reasons_are_the_agreed_words() -> None:
+def test_a_fault_is_a_reason_with_its_row() -> None:
     assert fault("LIDAR_STALE") == "fault(LIDAR_STALE)"
-    assert set(PauseReason) == {
-        *("operator", "stop", "teleop", "estop", "budget", "blocked", "disarmed"),
-        "planner_restarted",
-    }
 
 
 @given(st.floats(allow_nan=True, allow_infinity=True))

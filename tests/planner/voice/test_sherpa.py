@@ -21,7 +21,6 @@ from planner.voice.sherpa_model import find_model, open_model
 from planner.voice_factory import VoiceParts
 from tests.planner.api.fakes import two_room
 from tests.planner.voice.toy_transducer import FAINT, LOUD, MIDDLING, write_model
-from tests.processes.small_worker import story
 from wire import ConfigError
 
 needs_sherpa = pytest.mark.skipif(
@@ -113,7 +112,6 @@ async def hear(folder: Path, *sounds: Sound) -> list[Recognition]:
 
 
 @needs_sherpa
-@story
 async def test_the_real_library_hears_both_languages(tmp_path: Path) -> None:
     folder = write_model(tmp_path)
     heard = await hear(folder, *map(noise, (FAINT, MIDDLING, LOUD)))
@@ -123,7 +121,6 @@ async def test_the_real_library_hears_both_languages(tmp_path: Path) -> None:
 
 
 @needs_sherpa
-@story
 async def test_silence_is_nothing_and_any_rate_and_two_channels_are_heard(tmp_path: Path) -> None:
     silence, at_44 = noise(0), noise(LOUD, rate_hz=44_100, channels=2)
     heard = await hear(write_model(tmp_path), silence, at_44, noise(LOUD, rate_hz=16_000))
@@ -140,7 +137,6 @@ def without_kind(file: Path) -> None:
 
 @needs_sherpa
 @pytest.mark.parametrize("wrong", ["empty", "text", "no kind", "another's", "tokens", "few tokens"])
-@story
 async def test_files_that_are_no_model_cost_the_process_and_never_the_planner(
     tmp_path: Path, wrong: str
 ) -> None:
@@ -165,7 +161,6 @@ async def test_files_that_are_no_model_cost_the_process_and_never_the_planner(
 
 
 @needs_sherpa
-@story
 async def test_a_model_that_can_not_be_read_is_not_told_as_what_hears(tmp_path: Path) -> None:
     folder = write_model(tmp_path)
     parts = VoiceParts(Settings(voice=VoiceSettings(folder=folder)), KnownPlaces(two_room()))
@@ -208,7 +203,6 @@ def pieces(sound: Sound, step_s: float = 0.1) -> list[Sound]:
 
 
 @needs_sherpa
-@story
 async def test_a_stop_is_heard_while_it_is_spoken_and_an_order_is_not(tmp_path: Path) -> None:
     worker = open_model(VoiceSettings(folder=write_model(tmp_path)))
     assert worker is not None
@@ -229,7 +223,6 @@ async def test_a_stop_is_heard_while_it_is_spoken_and_an_order_is_not(tmp_path: 
 
 
 @needs_sherpa
-@story
 async def test_what_follows_a_pause_is_read_alone(tmp_path: Path) -> None:
     worker = open_model(VoiceSettings(folder=write_model(tmp_path)))
     assert worker is not None

@@ -100,19 +100,15 @@ def test_a_program_plays_what_it_is_given(tmp_path: Path) -> None:
     assert heard.read_bytes() == SOUND
 
 
-def test_a_cancelled_player_is_gone_before_the_call_returns() -> None:
+async def test_a_cancelled_player_is_gone_before_the_call_returns() -> None:
     command = (sys.executable, "-S", "-c", "import sys, time; sys.stdin.read; time.sleep(60)")
-
-    async def story() -> None:
-        playing = asyncio.create_task(ProgramPlayer(command).play(SOUND))
-        me = psutil.Process()
-        children = await asyncio.to_thread(until, me.children, 10.0, "a player")
-        playing.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await playing
-        assert not any(each.is_running() for each in children)
-
-    asyncio.run(story())
+    playing = asyncio.create_task(ProgramPlayer(command).play(SOUND))
+    me = psutil.Process()
+    children = await asyncio.to_thread(until, me.children, 10.0, "a player")
+    playing.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await playing
+    assert not any(each.is_running() for each in children)
 
 
 @pytest.mark.parametrize("command", [("false",), ("/nowhere/at-all",)])

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 
 import pytest
@@ -12,7 +13,6 @@ from planner.plan import Language
 from planner.plan.quiet_hours import QuietHours
 from planner.voice import SpeechFailure, SpeechOutput
 from planner.voice.speech_output import MAX_AGE_S, MAX_WAITING
-from tests.processes.small_worker import story
 
 EN, ZH = Language.EN, Language.ZH
 
@@ -63,13 +63,17 @@ class Room:
     minute: int = 12 * 60
     quiet: QuietHours | None = None
 
-    def speaker(self) -> SpeechOutput:
+    @asynccontextmanager
+    async def speaker(self) -> AsyncIterator[SpeechOutput]:
         made = SpeechOutput(
             self.voice, self.box, self.quiet,
             clock=lambda: self.now_s, minute=lambda: self.minute,
         )  # fmt: skip
         made.start()
-        return made
+        try:
+            yield made
+        finally:
+            await made.close()
 
 
 async def settle() -> None:
@@ -77,33 +81,19 @@ async def settle() -> None:
         await asyncio.sleep(0)
 
 
-def told(run: Callable[[Room, SpeechOutput], Awaitable[None]], room: Room | None = None) -> Room:
-    place = room or Room()
-
-    async def whole() -> None:
-        speaker = place.speaker()
-        try:
-            await run(place, speaker)
-        finally:
-            await speaker.close()
-
-    asyncio.run(whole())
-    return place
-
-
-def test_sentences_are_said_in_their_order_and_language() -> None:
-    async def run(_: Room, speaker: SpeechOutput) -> None:
+async def test_sentences_are_said_in_their_order_and_language() -> None:
+    room = Room()
+    async with room.speaker() as speaker:
         speaker.say("Dinner is\n ready.", EN)
         speaker.say("饭好了。", ZH)
         await settle()
-
-    room = told(run)
     assert room.voice.made == [("Dinner is ready.", EN), ("饭好了。", ZH)]
     assert room.box.heard == ["Dinner is ready.", "饭好了。"]
 
 
-def test_hush_breaks_off_what_sounds_and_forgets_what_waits() -> None:
-    async def run(room: Room, speaker: SpeechOutput) -> None:
+async def test_hush_breaks_off_what_sounds_and_forgets_what_waits() -> None:
+    room = Room(box=Loudspeaker(ends=False))
+    async with room.speaker() as speaker:
         for text in ("one", "two", "three"):
             speaker.say(text, EN)
         await settle()
@@ -116,11 +106,10 @@ def test_hush_breaks_off_what_sounds_and_forgets_what_waits() -> None:
         assert room.box.heard == ["one", "four"]
         assert speaker.trouble is None  # to be silenced is no failure
 
-    told(run, Room(box=Loudspeaker(ends=False)))
 
-
-def test_what_waited_too_long_or_is_too_much_is_left_out() -> None:
-    async def run(room: Room, speaker: SpeechOutput) -> None:
+async def test_what_waited_too_long_or_is_too_much_is_left_out() -> None:
+    room = Room(box=Loudspeaker(ends=False))
+    async with room.speaker() as speaker:
         speaker.say("first", EN)
         await settle()
         for number in range(MAX_WAITING + 2):
@@ -132,11 +121,10 @@ def test_what_waited_too_long_or_is_too_much_is_left_out() -> None:
         assert room.box.heard == ["first"]
         assert speaker.left_out == MAX_WAITING + 2
 
-    told(run, Room(box=Loudspeaker(ends=False)))
 
-
-def test_nothing_is_said_in_quiet_hours_or_after_they_began() -> None:
-    async def run(room: Room, speaker: SpeechOutput) -> None:
+async def test_nothing_is_said_in_quiet_hours_or_after_they_began() -> None:
+    room = Room(quiet=QuietHours.read("22:00-07:00"))
+    async with room.speaker() as speaker:
         speaker.say("good night", EN)
         await settle()
         room.minute = 23 * 60
@@ -145,13 +133,12 @@ def test_nothing_is_said_in_quiet_hours_or_after_they_began() -> None:
         assert (room.box.heard, speaker.left_out) == (["good night"], 1)
         assert speaker.is_quiet
 
-    told(run, Room(quiet=QuietHours.read("22:00-07:00")))
 
-
-def test_a_voice_that_fails_is_told_once_and_the_next_sentence_has_its_turn(
+async def test_a_voice_that_fails_is_told_once_and_the_next_sentence_has_its_turn(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    async def run(room: Room, speaker: SpeechOutput) -> None:
+    room = Room(voice=Voice(fails=True))
+    async with room.speaker() as speaker:
         for text in ("one", "two"):
             speaker.say(text, EN)
         await settle()
@@ -162,12 +149,9 @@ def test_a_voice_that_fails_is_told_once_and_the_next_sentence_has_its_turn(
         await settle()
         assert speaker.trouble is None
         assert room.box.heard == ["three"]
-
-    told(run, Room(voice=Voice(fails=True)))
     assert len([each for each in caplog.records if "speech_engine" in each.message]) == 1
 
 
-@story
 async def test_a_mute_speaker_takes_everything_and_says_nothing() -> None:
     speaker = SpeechOutput(None, None)
     speaker.start()

@@ -12,7 +12,7 @@ import pytest
 
 from planner.voice import Recognition, Sound, VoiceFailure, VoiceWorker, process_client
 from processes import worker_protocol
-from tests.processes.small_worker import story, until
+from tests.processes.small_worker import until
 
 SECOND = Sound(16_000, 1, bytes(32_000))
 ECHO = """
@@ -57,7 +57,6 @@ async def code_of(ears: VoiceWorker) -> str:
     return failure.value.code
 
 
-@story
 async def test_the_real_process_hears_silence_and_ends() -> None:
     pytest.importorskip("pocketsphinx")
     async with running() as ears:
@@ -71,7 +70,6 @@ async def test_the_real_process_hears_silence_and_ends() -> None:
         os.kill(pid or 0, 0)
 
 
-@story
 async def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
     async with running(*stub(TELL)) as ears:
         ears.warm()
@@ -85,7 +83,6 @@ async def test_new_names_are_known_without_a_restart_of_the_planner() -> None:
         assert ears.pid != pid
 
 
-@story
 async def test_where_nobody_speaks_no_process_runs_and_it_is_back_before_the_first_word() -> None:
     async with running(*stub(TELL), rests_after_s=0.05) as ears:
         ears.know(("kitchen", "nook"))
@@ -99,7 +96,6 @@ async def test_where_nobody_speaks_no_process_runs_and_it_is_back_before_the_fir
         assert (await ears.hear(SECOND)).understood
 
 
-@story
 async def test_recordings_come_whole_and_one_after_the_other() -> None:
     async with running(*stub(TELL)) as ears:
         sounds = [Sound(16_000, 1, bytes(2 * n)) for n in (1_600, 240_000, 3)]
@@ -107,7 +103,6 @@ async def test_recordings_come_whole_and_one_after_the_other() -> None:
         assert [one.transcript for one in heard] == ["3200", "480000", "6"]
 
 
-@story
 async def test_a_fourth_at_once_is_told_to_come_again() -> None:
     async with running(*stub(TELL)) as ears:
         asked = [asyncio.create_task(ears.hear(SECOND)) for _ in range(process_client.MAX_WAITING)]
@@ -126,14 +121,12 @@ async def test_a_fourth_at_once_is_told_to_come_again() -> None:
         "write(number=head['number'], failed='RuntimeError: broken')",
     ],
 )
-@story
 async def test_a_failure_is_typed_and_the_next_order_gets_a_new_process(act: str) -> None:
     async with running(*stub(act)) as ears:
         assert await code_of(ears) == "recogniser_unavailable"
         assert await code_of(ears) == "recogniser_unavailable"
 
 
-@story
 async def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(process_client, "HEAR_S", 0.05)
     async with running(*stub("import time; time.sleep(60)")) as ears:
@@ -141,7 +134,6 @@ async def test_what_takes_too_long_is_ended(monkeypatch: pytest.MonkeyPatch) -> 
         assert ears.pid is None
 
 
-@story
 async def test_who_goes_away_leaves_no_answer_for_the_next() -> None:
     async with running(*stub("import time; time.sleep(0.2); " + TELL)) as ears:
         task = asyncio.create_task(ears.hear(SECOND))
@@ -155,7 +147,6 @@ async def test_who_goes_away_leaves_no_answer_for_the_next() -> None:
 
 
 @pytest.mark.parametrize("command", [("/no/such/program",), (sys.executable, "-S", "-c", "")])
-@story
 async def test_where_there_is_no_recogniser_it_says_so(command: tuple[str, ...]) -> None:
     async with running(*command) as ears:
         ears.warm()

@@ -114,20 +114,16 @@ DULL = '{"kind":"answer","en":"There is a board.","zh":"有一块板。"}'
 
 
 @pytest.mark.parametrize(("second", "used"), [(KIND, True), (GO, False)])
-def test_a_thought_that_obeys_a_picture_is_shown_as_not_used(
+async def test_a_thought_that_obeys_a_picture_is_shown_as_not_used(
     second: str, used: bool, home: Vocabulary, tmp_path: Path
 ) -> None:
     collector = ReplyCollector(1)
     with serving(writes(DULL, second)) as wire:
         brain = brain_at(wire, tmp_path, collector)
-
-        async def once() -> None:
-            asked = ThinkRequest(text="read it", vocabulary=home, goal="g1", observed=(READ,))
-            thought = await think_warily(brain, asked)
-            assert thought.plan.kind == "answer"
-            await brain.close()
-
-        asyncio.run(once())
+        asked = ThinkRequest(text="read it", vocabulary=home, goal="g1", observed=(READ,))
+        thought = await think_warily(brain, asked)
+        assert thought.plan.kind == "answer"
+        await brain.close()
     kept = collector.replies_of("g1").replies
     assert [(each.text, each.used) for each in kept] == [(DULL, True), (second, used)]
 
@@ -142,16 +138,12 @@ def test_the_servers_key_is_cut_out_of_an_echo(
     assert KEY_CUT in reply.text or "***" in reply.text
 
 
-def test_a_refusal_in_the_models_own_words_is_kept(home: Vocabulary, tmp_path: Path) -> None:
+async def test_a_refusal_in_the_models_own_words_is_kept(home: Vocabulary, tmp_path: Path) -> None:
     collector = ReplyCollector(1)
     with serving(writes("", refusal="I can't do that.")) as wire:
         brain = brain_at(wire, tmp_path, collector)
-
-        async def once() -> None:
-            await brain.think(ThinkRequest(text="go", vocabulary=home, goal="g1"))
-            await brain.close()
-
-        asyncio.run(once())
+        await brain.think(ThinkRequest(text="go", vocabulary=home, goal="g1"))
+        await brain.close()
     (reply,) = collector.replies_of("g1").replies
     assert (reply.text, reply.used) == ("I can't do that.", True)
 
@@ -164,21 +156,17 @@ def test_a_refusal_in_the_models_own_words_is_kept(home: Vocabulary, tmp_path: P
         (['{"picture":false}'], [("look", False)]),
     ],
 )
-def test_what_it_wrote_about_a_picture_is_kept_with_its_goal(
+async def test_what_it_wrote_about_a_picture_is_kept_with_its_goal(
     texts: list[str], expected: list[tuple[str, bool]], tmp_path: Path
 ) -> None:
     collector = ReplyCollector(1)
     with serving(writes(*texts)) as wire:
         brain = brain_at(wire, tmp_path, collector)
-
-        async def once() -> None:
-            try:
-                await brain.looker().describe(ImageQuestion(picture(), "a cup?", goal="g7"))
-            except NotSent:
-                pass
-            finally:
-                await brain.close()
-
-        asyncio.run(once())
+        try:
+            await brain.looker().describe(ImageQuestion(picture(), "a cup?", goal="g7"))
+        except NotSent:
+            pass
+        finally:
+            await brain.close()
     found = collector.replies_of("g7").replies
     assert [(each.turn.value, each.used) for each in found] == expected

@@ -153,20 +153,15 @@ def test_a_call_that_is_cut_is_paid_in_full(tmp_path: Path, home: Vocabulary) ->
     assert (usage.today.calls, usage.today.reply_tokens, usage.under_way) == (1, MOST, 0)
 
 
-def test_no_call_goes_out_that_no_goal_asked_for(tmp_path: Path) -> None:
-    async def story() -> None:
-        server = Server(said(1, 1, 2))
-        purse = Purse(BudgetSettings(), Ledger.in_home(tmp_path))
-        made = EndpointBrain(
-            settings(), tmp_path, transport=httpx.MockTransport(server), meter=purse
-        )
-        with pytest.raises(OutOfBudget):
-            await made._client.post({}, 1.0)
-        assert (server.requests, purse.usage().idle_calls) == ([], 1)
-        await made.close()
-        purse.close()
-
-    asyncio.run(story())
+async def test_no_call_goes_out_that_no_goal_asked_for(tmp_path: Path) -> None:
+    server = Server(said(1, 1, 2))
+    purse = Purse(BudgetSettings(), Ledger.in_home(tmp_path))
+    made = EndpointBrain(settings(), tmp_path, transport=httpx.MockTransport(server), meter=purse)
+    with pytest.raises(OutOfBudget):
+        await made._client.post({}, 1.0)
+    assert (server.requests, purse.usage().idle_calls) == ([], 1)
+    await made.close()
+    purse.close()
 
 
 def test_reading_a_bill() -> None:

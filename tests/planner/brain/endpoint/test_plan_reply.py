@@ -121,9 +121,10 @@ def test_what_is_no_plan_says_why(text: str) -> None:
     ['[{"kind":"go_to","place":"kitchen"}]' + NO, NO + '[{"kind":"go_to","place":"kitchen"}]',
      '[{"kind":"go_to","place":"kitchen"}, 7]', '[{"kind":"go_to","place":"kitchen"}',
      '[[{"kind":"go_to","place":"kitchen"}]]', "[]", '[{"place":"kitchen"}]',
-     '[{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}]'],
+     '[{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}]',
+     *GARBAGE, *(hostile(number, "kitchen") for number in range(HOSTILE_COUNT))],
 )  # fmt: skip
-def test_a_list_that_is_not_steps_alone_is_no_plan(text: str) -> None:
+def test_a_list_that_is_not_steps_alone_garbage_and_a_hostile_reply_are_no_plan(text: str) -> None:
     assert isinstance(judge(text, HOME), Unusable)
 
 
@@ -153,16 +154,6 @@ def test_a_name_of_two_places_is_neither() -> None:
     judged = judge('{"kind":"go_to","place":"bed"}', twins)
     assert isinstance(judged, Unusable)
     assert "bed_1, bed_2" in str(judged)
-
-
-@pytest.mark.parametrize("number", range(HOSTILE_COUNT))
-def test_no_hostile_reply_is_a_plan(number: int) -> None:
-    assert isinstance(judge(hostile(number, "kitchen"), HOME), Unusable)
-
-
-@pytest.mark.parametrize("text", GARBAGE)
-def test_no_garbage_is_a_plan(text: str) -> None:
-    assert isinstance(judge(text, HOME), Unusable)
 
 
 def test_a_place_that_does_not_exist_is_named_with_those_that_do() -> None:

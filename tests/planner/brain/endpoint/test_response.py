@@ -7,12 +7,11 @@ import json
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.brain import BrainDown, Draft, FallbackBrain, OfflineBrain, ThinkRequest, ThinkResult
+from planner.brain import Draft, FallbackBrain, OfflineBrain, ThinkRequest, ThinkResult
 from planner.brain.endpoint import EndpointBrain
 from planner.brain.endpoint.assembly import Assembly, StreamFailure
 from planner.brain.endpoint.completion import read_reply
@@ -201,18 +200,6 @@ def test_a_stream_is_asked_for_where_it_is_wanted_alone(home: Vocabulary, tmp_pa
     think(brain(first, tmp_path, name="other"), home)
     assert [body["stream"] for body in first.bodies] == [True, False, False]
     assert all("response_format" in body for body in first.bodies)
-
-
-def test_a_stream_without_end_is_bounded(home: Vocabulary, tmp_path: Path) -> None:
-    class Endless(httpx.AsyncByteStream):
-        async def __aiter__(self) -> Any:
-            while True:
-                yield b": still here\n" * 5_000
-
-    server = Server(lambda: httpx.Response(200, stream=Endless(), headers=EVENTS))
-    with pytest.raises(BrainDown) as down:
-        think(brain(server, tmp_path), home)
-    assert down.value.why == "too_large"
 
 
 PIECES = st.lists(st.integers(1, 400), min_size=0, max_size=12)

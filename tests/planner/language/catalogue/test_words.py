@@ -8,8 +8,8 @@ import re
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 from string import Formatter
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -33,9 +33,6 @@ from planner.language.place_lists import known_places
 from planner.mission.errors import JournalDown
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, Entry, Language, Vocabulary, say_same
 from planner.plan.steps import CALLS, CONTROL, EVERY_KIND, GIVEN, TOOL_CALLS
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 KITCHEN = Entry(id="kitchen", kind="room", name=Bilingual(en="kitchen", zh="厨房"))
 BLANK = re.compile(r"(\{[^}]*\})")

@@ -45,7 +45,6 @@ ENGLISH: tuple[tuple[str, Intent], ...] = (
     ("can you continue?", ResumeCommand()),
     ("go on with the current job", ResumeCommand()),
     ("keep going", ResumeCommand()),
-    ("right, carry on", ResumeCommand()),
     ("fine, carry on then", ResumeCommand()),
     ("okay, off you go", ResumeCommand()),
     ("不用找了，就在我手上", CancelCommand()),
@@ -331,27 +330,6 @@ def test_any_text_is_read_the_same_twice(text: str) -> None:
 )
 def test_what_asks_or_goes_on_or_is_of_another_tells_no_place(text: str) -> None:
     assert not isinstance(intent_of(text), HereCommand)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "wait no ",
-        "no wait ",
-        "not that ",
-        "and then ",
-        "please ",
-        "again ",
-        "i meant ",
-        "不是",
-        "不对，",
-        "不，",
-    ],
-)
-def test_words_said_over_and_over_are_read_in_no_time(text: str) -> None:
-    """Would a pattern try every way to cut them, this would not end."""
-    for times in (2, 9, 30, 120):
-        intent_of((text * times)[:299])
 
 
 @pytest.mark.parametrize(

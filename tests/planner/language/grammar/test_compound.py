@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import pytest
 
 from planner.language.grammar import Context, plan
-from planner.plan import EVERY_KIND, Ask, Clarify, If, Look, Refuse, Say, StepPlan
-
-if TYPE_CHECKING:
-    from planner.plan import Vocabulary
+from planner.plan import EVERY_KIND, Ask, Clarify, If, Look, Refuse, Say, StepPlan, Vocabulary
 
 WHOLE = Context(runnable=EVERY_KIND)
 

@@ -274,13 +274,10 @@ def test_what_the_robot_lacks_is_told(
     assert understood_bare(text) == end
 
 
-@pytest.mark.parametrize(("text", "steps"), MOTION.items())
-def test_order_is_understood(text: str, steps: str, understood: Callable[[str], str]) -> None:
-    assert understood(text) == steps
-
-
-@pytest.mark.parametrize(("text", "end"), STILL.items(), ids=ascii)
-def test_nothing_moves(text: str, end: str, understood: Callable[[str], str]) -> None:
+@pytest.mark.parametrize(("text", "end"), [*MOTION.items(), *STILL.items()], ids=ascii)
+def test_an_order_is_understood_and_nothing_else_moves(
+    text: str, end: str, understood: Callable[[str], str]
+) -> None:
     assert understood(text) == end
 
 

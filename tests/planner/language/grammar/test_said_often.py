@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import asyncio
+from itertools import product
 
 import pytest
 
 from planner.brain import OfflineBrain, ThinkRequest
 from planner.language.motion_guard import PersonWords, find_unasked
 from planner.language.numbers import times
-from planner.plan import RUNNABLE, Language, Repeat, Say, StepPlan
+from planner.plan import RUNNABLE, Language, Plan, Repeat, Say, StepPlan
 from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from pons_assets import DEFAULT_SITE
 
 HOME = vocabulary_of(Site.load(DEFAULT_SITE))
+
+
+def think(text: str) -> Plan:
+    language = Language.EN if text.isascii() else Language.ZH
+    request = ThinkRequest(text=text, vocabulary=HOME, language=language, runnable=RUNNABLE)
+    return asyncio.run(OfflineBrain().think(request)).plan
 
 
 @pytest.mark.parametrize(
@@ -34,9 +41,7 @@ HOME = vocabulary_of(Site.load(DEFAULT_SITE))
 def test_words_are_said_as_often_as_asked_and_the_number_is_not_among_them(
     text: str, words: str, often: int
 ) -> None:
-    language = Language.EN if text.isascii() else Language.ZH
-    request = ThinkRequest(text=text, vocabulary=HOME, language=language, runnable=RUNNABLE)
-    plan = asyncio.run(OfflineBrain().think(request)).plan
+    plan = think(text)
     assert isinstance(plan, StepPlan)
     said = [
         each
@@ -46,22 +51,21 @@ def test_words_are_said_as_often_as_asked_and_the_number_is_not_among_them(
     assert said == [Say(text=words)] * often
 
 
-@pytest.mark.parametrize("number", ["2", "10", "11", "20", "twelve", "twenty"])
-@pytest.mark.parametrize("main", ["patrol the kitchen and the study", "go to the study and back"])
-def test_rounds_of_any_number_are_read_and_need_no_yes(main: str, number: str) -> None:
-    check_rounds(f"{main} {number} times", round(times(f"{number} times")), Language.EN)
+ROUNDS = (
+    *product(
+        ("patrol the kitchen and the study", "go to the study and back"),
+        ((f" {number} times", round(times(f"{number} times")))
+         for number in ("2", "10", "11", "20", "twelve", "twenty")),
+    ),
+    *product(("巡逻厨房和书房", "去书房再回来"),
+             (("两次", 2), ("20次", 20), ("十二次", 12), ("二十次", 20))),
+)  # fmt: skip
 
 
-@pytest.mark.parametrize(("number", "often"), [("两", 2), ("20", 20), ("十二", 12), ("二十", 20)])
-@pytest.mark.parametrize("main", ["巡逻厨房和书房", "去书房再回来"])
-def test_rounds_are_read_in_chinese_too(main: str, number: str, often: int) -> None:
-    check_rounds(f"{main}{number}次", often, Language.ZH)
-
-
-def check_rounds(text: str, often: int, language: Language) -> None:
-    """Hold that a sentence is one repeat, and that the guard lets it go."""
-    request = ThinkRequest(text=text, vocabulary=HOME, language=language, runnable=RUNNABLE)
-    plan = asyncio.run(OfflineBrain().think(request)).plan
+@pytest.mark.parametrize(("main", "rounds"), ROUNDS)
+def test_rounds_of_any_number_are_read_and_need_no_yes(main: str, rounds: tuple[str, int]) -> None:
+    text, often = main + rounds[0], rounds[1]
+    plan = think(text)
     assert isinstance(plan, StepPlan)
     assert [s.times for s in plan.steps if isinstance(s, Repeat)] == [often]
     assert find_unasked(plan, PersonWords((text,)), HOME, by_all_words=True) == ()

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import pytest
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 HELLO = ("hello", "morning!", "good afternoon, robot", "嗨，你好呀", "机器人，早上好", "早")
 THANKS = (
@@ -28,27 +25,25 @@ NONE = (
     *("you're in the kitchen", "you are lovely in the kitchen", "good kitchen", "early morning"),
     *("没事去厨房", "告诉我", "好厨房"),
 )
+GREETED_ORDERS = (
+    *("good morning robot, go to the kitchen please", "good evening. go to the kitchen"),
+    *("hello, go to the kitchen", "早上好，去厨房", "你好，请去厨房"),
+)
+TALK = {
+    **dict.fromkeys(HELLO, "answer: Hello. Tell me where to go."),
+    **dict.fromkeys(GREETED_ORDERS, "kitchen"),
+    **dict.fromkeys(THANKS, "answer: You are welcome."),
+    **dict.fromkeys(BYE, "answer: See you later."),
+    **dict.fromkeys(NONE, "clarify not_understood"),
+    "机器人你好，今天怎么样": "answer: I have no moods, and I am ready to drive.",
+}
 
 
-@pytest.mark.parametrize("text", HELLO)
-def test_a_greeting_is_greeted(text: str, understood: Callable[[str], str]) -> None:
-    assert understood(text) == "answer: Hello. Tell me where to go."
-
-
-@pytest.mark.parametrize(
-    "text",
-    ["good morning robot, go to the kitchen please", "good evening. go to the kitchen",
-     "hello, go to the kitchen", "早上好，去厨房", "你好，请去厨房"],
-)  # fmt: skip
-def test_a_greeting_before_an_order_is_no_part_of_it(
-    text: str, understood: Callable[[str], str]
+@pytest.mark.parametrize(("text", "told"), TALK.items())
+def test_talk_is_answered_and_is_no_part_of_an_order(
+    text: str, told: str, understood: Callable[[str], str]
 ) -> None:
-    assert understood(text) == "kitchen"
-
-
-@pytest.mark.parametrize("text", THANKS)
-def test_thanks_and_praise_are_taken(text: str, understood: Callable[[str], str]) -> None:
-    assert understood(text) == "answer: You are welcome."
+    assert understood(text) == told
 
 
 @pytest.mark.parametrize(
@@ -74,20 +69,3 @@ def test_a_question_about_itself_is_answered(
 )
 def test_what_asks_of_something_else_is_not(text: str, understood: Callable[[str], str]) -> None:
     assert not understood(text).startswith("answer: I ")
-
-
-@pytest.mark.parametrize("text", BYE)
-def test_who_leaves_is_not_greeted(text: str, understood: Callable[[str], str]) -> None:
-    assert understood(text) == "answer: See you later."
-
-
-def test_two_in_one_sentence_are_one_answer(understood: Callable[[str], str]) -> None:
-    told = understood("机器人你好，今天怎么样")
-    assert told == "answer: I have no moods, and I am ready to drive."
-
-
-@pytest.mark.parametrize("text", NONE)
-def test_what_names_a_place_beside_is_asked_about(
-    text: str, understood: Callable[[str], str]
-) -> None:
-    assert understood(text) == "clarify not_understood"

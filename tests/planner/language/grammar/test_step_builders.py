@@ -113,6 +113,11 @@ NOT_AHEAD = (
     "你能看到后面有人吗", "看到谁在你后面", "数一数后面有几个人", "去厨房告诉我后面有什么",
     "向左转，告诉我后面有什么",
 )  # fmt: skip
+LEANS = (
+    *("find it for me plssss", "find them all for me", "count them n tell us", "count em"),
+    "找它一下",
+)
+"""What leans on something before it is no thing."""
 LOOKED_AT_AFTER_A_TURN = {
     "check what is behind you": "turn=180 look=check what is behind you",
     "look at the chair on your right": "turn=-90 look=look at the chair on your right",
@@ -155,8 +160,18 @@ def test_a_question_without_a_place_drives_nowhere(text: str, home: Vocabulary) 
     assert [(step.kind, getattr(step, "place", None)) for step in made.steps] == [("look", None)]
 
 
-@pytest.mark.parametrize(("text", "steps"), OTHERS.items(), ids=ascii)
-def test_an_order_is_done(text: str, steps: str, understood: Callable[[str], str]) -> None:
+@pytest.mark.parametrize(
+    ("text", "steps"),
+    {
+        **OTHERS,
+        **LOOKED_AT_AFTER_A_TURN,
+        **dict.fromkeys((*NOT_AHEAD, *LEANS), "clarify not_understood"),
+    }.items(),
+    ids=ascii,
+)
+def test_an_order_is_done_and_what_is_ahead_answers_nothing_of_beside_or_behind(
+    text: str, steps: str, understood: Callable[[str], str]
+) -> None:
     assert understood(text) == steps
 
 
@@ -165,20 +180,6 @@ def test_what_is_only_told_or_not_to_be_seen_moves_nothing(text: str, home: Voca
     made = plan(text, home, Context(runnable=EVERY_KIND))
     assert isinstance(made, Clarify)
     assert made.code is Code.NOT_UNDERSTOOD
-
-
-@pytest.mark.parametrize("text", NOT_AHEAD, ids=ascii)
-def test_what_is_ahead_is_no_answer_to_what_is_beside_or_behind(
-    text: str, understood: Callable[[str], str]
-) -> None:
-    assert understood(text) == "clarify not_understood"
-
-
-@pytest.mark.parametrize(("text", "steps"), LOOKED_AT_AFTER_A_TURN.items(), ids=ascii)
-def test_an_order_to_look_aside_or_to_turn_and_tell_turns(
-    text: str, steps: str, understood: Callable[[str], str]
-) -> None:
-    assert understood(text) == steps
 
 
 @pytest.mark.parametrize(("text", "what"), WHEREABOUTS.items(), ids=ascii)
@@ -193,23 +194,6 @@ def test_who_asks_where_something_is_is_offered_a_search(
     assert again == StepPlan(steps=(Find(object=what),))
     blind = plan(text, home, Context(runnable=frozenset({"go_to"})))
     assert blind.kind == "refuse"
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "find it for me plssss",
-        "find them all for me",
-        "count them n tell us",
-        "count em",
-        "找它一下",
-    ],
-    ids=ascii,
-)
-def test_what_leans_on_something_before_it_is_no_thing(
-    text: str, understood: Callable[[str], str]
-) -> None:
-    assert understood(text) == "clarify not_understood"
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
 from string import Formatter
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -14,10 +16,6 @@ from planner.language.object_classes import KINDS
 from planner.navigation import RouteFailure
 from planner.perception.failure import VisionFailure
 from planner.plan import Code
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 PAIRED = {"route_failure": RouteFailure, "vision_failure": VisionFailure}
 """Groups that a worker's failure takes whole."""
@@ -99,7 +97,7 @@ def test_no_message_is_left_over(repository: Path) -> None:
     strings = {
         node.value
         for path in (*sources(repository), repository / "pons" / "site.py")
-        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        for node in nodes_of(path)
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
     }
     starts = tuple(text for text in strings if text.endswith((".", "_")) and text[:1].isalpha())
@@ -110,6 +108,12 @@ def test_no_message_is_left_over(repository: Path) -> None:
     assert left == []
 
 
+@cache
+def nodes_of(path: Path) -> tuple[ast.AST, ...]:
+    """Return what a file is made of: two laws read each, and it takes a while."""
+    return tuple(ast.walk(ast.parse(path.read_text("utf-8"))))
+
+
 def sources(repository: Path) -> list[Path]:
     return sorted((repository / "planner").rglob("*.py"))
 
@@ -117,7 +121,7 @@ def sources(repository: Path) -> list[Path]:
 def literal_calls(repository: Path) -> Iterator[tuple[str, tuple[str, set[str] | None]]]:
     """Yield each call of ``say`` with a literal code, and the facts it names; None where spread."""
     for path in sources(repository):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        for node in nodes_of(path):
             if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name)):
                 continue
             code = node.args[0] if node.func.id == "say" and node.args else None

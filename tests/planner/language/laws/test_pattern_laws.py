@@ -38,7 +38,7 @@ from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from pons_assets import ROOT
 
-HANGS_S = 2.0
+HANGS_S, WORD_HANGS_S = 2.0, 1.0
 TIMES = 60
 MOST_WORDS = 150
 """Of one pattern: the longest and the shortest of its words."""
@@ -80,18 +80,26 @@ class Hangs(Exception):
 
 @contextmanager
 def alarm(what: str) -> Iterator[None]:
-    """Raise where the lines within hang; the engine looks for signals while it tries."""
+    """Raise where the lines within hang; the engine looks for signals while it tries.
+
+    The processor's time counts, so that a busy machine rings nothing.
+    """
 
     def ring(_number: int, _frame: FrameType | None) -> None:
         raise Hangs(what)
 
-    before, left = signal.signal(signal.SIGALRM, ring), signal.setitimer(signal.ITIMER_REAL, 0)
-    signal.setitimer(signal.ITIMER_REAL, HANGS_S)
+    before = signal.signal(signal.SIGVTALRM, ring)
+    wind()
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, *left)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        signal.signal(signal.SIGVTALRM, before)
+
+
+def wind(limit_s: float = HANGS_S) -> None:
+    """Give what follows its time anew."""
+    signal.setitimer(signal.ITIMER_VIRTUAL, limit_s)
 
 
 @cache
@@ -167,15 +175,16 @@ def hangs(name: str, pattern: re.Pattern[str]) -> str | None:
     pairs = ["".join(draw.choices(words, k=2)) for _ in range(10)] if words else []
     spaced = [word + " " for word in words]
     pairs += ["".join(draw.choices(spaced, k=2)) for _ in range(10)] if words else []
-    for word in (*words, *pairs, *spaced):
-        said = (word * TIMES)[:MOST_READ]
-        for text in (said, said + "☃"):
-            try:
-                with alarm(name):
-                    pattern.match(text)
-                    pattern.fullmatch(text)
-            except Hangs:
-                return word
+    word = ""
+    try:
+        with alarm(name):
+            for word in (*words, *pairs, *spaced):
+                wind(WORD_HANGS_S)
+                said = (word * TIMES)[:MOST_READ]
+                pattern.fullmatch(said)  # it goes every way that a match of the beginning goes
+                pattern.fullmatch(said + "☃")
+    except Hangs:
+        return word
     return None
 
 
@@ -188,7 +197,7 @@ def test_no_pattern_has_two_ways_to_read_its_own_words() -> None:
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_no_repeated_words_hang_at_the_door(seed: int) -> None:
     found: set[str] = set()
     for name, pattern in patterns():
@@ -207,7 +216,10 @@ def test_no_repeated_words_hang_at_the_door(seed: int) -> None:
     "word",
     [*["喂", "哎", "诶", "啊哎呀", "先给我", "去", "到", "回", "在", "去找", "然后去", "劳驾你"],
      *["麻烦你", "刚", "刚刚", "真的", "那就", "多少个", "and ", "in the ", "x, unless x", " "],
-     *["\t", ", aa", ",", "停", "stop "]],
+     *["\t", ", aa", ",", "停", "stop ", "wait no ", "no wait ", "not that ", "and then "],
+     *["please ", "again ", "i meant ", "不是", "不对，", "不，", "去厨房再", "你好", "找", "等"],
+     *["go to the kitchen and ", "from ", "go from a to ", 'say "', "再", "the ", "get get "],
+     *["i want you to ", "能吗", "( ", "1", "a in "]],
 )  # fmt: skip
 @pytest.mark.parametrize("length", LENGTHS)
 def test_words_that_people_shout_over_and_over_are_read(word: str, length: int) -> None:

@@ -238,9 +238,11 @@ def test_what_nobody_sees_changes_nothing(text: str, unseen: str) -> None:
         *("你往哪儿走呢快停住", "你先停在那边等干了再说", "嫑动", "你在原地等着"),
         *("would you mind stopping there, dear?", "wait there for me", "haud on, dinnae move"),
         *("ting xia", "挺下来", "战住", "赞停", "stooooop", "STAHP", "sotp!!", "煞車", "唔好郁"),
+        # a threat or a cry is no denied stop
+        *("if you don't stop I will unplug you", "怎么还不停", "why won't you stop", "停不停"),
     ],
 )
-def test_disguises_and_sounds_stop(text: str) -> None:
+def test_disguises_sounds_threats_and_cries_stop(text: str) -> None:
     assert read_stop(text) is not NONE
 
 
@@ -261,13 +263,6 @@ def test_disguises_and_sounds_stop(text: str) -> None:
 def test_what_surely_means_something_else_is_none(text: str) -> None:
     assert read_stop(text) is NONE
     assert read_stop(to_traditional(text)) is NONE
-
-
-@pytest.mark.parametrize(
-    "text", ["if you don't stop I will unplug you", "怎么还不停", "why won't you stop", "停不停"]
-)
-def test_a_threat_or_a_cry_is_no_denied_stop(text: str) -> None:
-    assert read_stop(text) is not NONE
 
 
 @pytest.mark.parametrize(

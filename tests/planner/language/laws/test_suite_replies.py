@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import asyncio
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -14,9 +13,6 @@ from planner.site import Site
 from planner.site.site_view import vocabulary_of
 from pons_assets import DEFAULT_SITE
 from tests.planner.language.laws.replies import count_sentences, find_foreign, find_inner
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HOME = vocabulary_of(Site.load(DEFAULT_SITE))
 RUNS = RUNNABLE | {"find", "count", "look", "follow", "go_to_object"}
@@ -38,14 +34,14 @@ def sentences(repository: Path) -> list[str]:
 
 
 @pytest.mark.timeout(300)
-def test_replies_to_all_suites_are_short_of_one_language_and_without_inner_words(
+async def test_replies_to_all_suites_are_short_of_one_language_and_without_inner_words(
     repository: Path,
 ) -> None:
     said, wrong = 0, []
     for text in sentences(repository):
         language = Language.ZH if is_chinese(text) else Language.EN
         request = ThinkRequest(text=text, vocabulary=HOME, language=language, runnable=RUNS)
-        plan = asyncio.run(OfflineBrain().think(request)).plan
+        plan = (await OfflineBrain().think(request)).plan
         told = []
         if isinstance(plan, Clarify):
             told = [plan.question, *(option.label for option in plan.options)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from math import pi
 from typing import Any
 
@@ -95,15 +96,10 @@ def test_who_asks_for_no_motion_gets_none(text: str, step: Step) -> None:
 
 
 @pytest.mark.parametrize(("text", "step"), ORDERS)
-def test_what_is_ordered_is_asked_for(text: str, step: Step) -> None:
-    assert unasked(text, step) == ()
-
-
-@pytest.mark.parametrize(("text", "step"), ORDERS)
 @pytest.mark.parametrize(
-    "frame", ["{}, please", "hey robot, {}", "{} now", "  {}  ", "{}!", "could you {}"]
+    "frame", ["{}", "{}, please", "hey robot, {}", "{} now", "  {}  ", "{}!", "could you {}"]
 )
-def test_courtesy_changes_nothing(frame: str, text: str, step: Step) -> None:
+def test_what_is_ordered_is_asked_for_however_politely(frame: str, text: str, step: Step) -> None:
     assert unasked(frame.format(text), step) == ()
 
 
@@ -117,28 +113,13 @@ def test_a_motion_more_is_found_wherever_it_stands(text: str, step: Step, more: 
     assert 0 in unasked(text, more, step)
 
 
-@pytest.mark.parametrize(
-    "frame",
-    [
-        "don't {}",
-        "please do not {}",
-        "never {}",
-        "you must not {}",
-        "if it rains, {}",
-        "when the bell rings, {}",
-        "{} tomorrow morning",
-        "say that I said “{}”",
-        "{} only if the door is open",
-        "unless I call you, {}",
-    ],
+NOT_ASKED = (
+    *("don't {}", "please do not {}", "never {}", "you must not {}", "if it rains, {}"),
+    *("when the bell rings, {}", "{} tomorrow morning", "say that I said “{}”"),
+    *("{} only if the door is open", "unless I call you, {}"),
 )
-def test_what_is_denied_or_on_a_condition_is_not_asked_for(frame: str) -> None:
-    assert unasked(frame.format("go to the kitchen"), KITCHEN) == (0,)
-
-
-@pytest.mark.parametrize(
-    "frame",
-    [
+NOT_ASKED_ZH = (
+    *(
         "别{}",
         "不要{}",
         "千万别{}",
@@ -147,10 +128,23 @@ def test_what_is_denied_or_on_a_condition_is_not_asked_for(frame: str) -> None:
         "你说：{}",
         "不许{}",
         "要是门开着就{}",
-    ],
+    ),
 )
-def test_the_same_in_chinese(frame: str) -> None:
-    assert unasked(frame.format("去厨房"), KITCHEN) == (0,)
+
+
+@pytest.mark.parametrize(
+    ("frame", "order"),
+    [*product(NOT_ASKED, ["go to the kitchen"]), *product(NOT_ASKED_ZH, ["去厨房"])],
+)
+def test_what_is_denied_or_on_a_condition_is_not_asked_for(frame: str, order: str) -> None:
+    assert unasked(frame.format(order), KITCHEN) == (0,)
+
+
+@pytest.mark.parametrize(("text", "step"), ORDERS)
+def test_a_denial_in_front_always_asks(text: str, step: Step) -> None:
+    denials = ("don't ", "never ", "please do not ") if text.isascii() else ("别", "不要", "千万别")
+    for denial in denials:
+        assert unasked(f"{denial}{text}", step) == (0,)
 
 
 def test_a_condition_holds_once_somebody_has_looked() -> None:
@@ -331,18 +325,6 @@ def test_a_step_of_one_branch_may_not_quote_the_other() -> None:
     order = "if somebody is in the kitchen go to the study, otherwise go to the bathroom"
     hung = If(when=Look(question="is anybody there?", place="kitchen"), then=(BATH,))
     assert 2 in quoting("go to the bathroom", order, hung)
-
-
-@pytest.mark.parametrize("denial", ["don't ", "never ", "please do not "])
-@pytest.mark.parametrize(("text", "step"), [each for each in ORDERS if each[0].isascii()])
-def test_a_denial_in_front_always_asks(denial: str, text: str, step: Step) -> None:
-    assert unasked(f"{denial}{text}", step) == (0,)
-
-
-@pytest.mark.parametrize("denial", ["别", "不要", "千万别"])
-@pytest.mark.parametrize(("text", "step"), [each for each in ORDERS if not each[0].isascii()])
-def test_a_denial_in_front_always_asks_in_chinese(denial: str, text: str, step: Step) -> None:
-    assert unasked(f"{denial}{text}", step) == (0,)
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cache
 from random import Random
+from typing import TypeVar
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -30,6 +32,7 @@ from planner.language.semantic_parser.units import MAX_UNITS, Gazetteer, cut_uni
 from tests.planner.language.semantic_parser.drawn_network import draw_weights
 
 Values = NDArray[np.float32]
+N = TypeVar("N", bound=PointerNetwork)
 NAMES = Gazetteer({"kitchen": "kitchen", "hall": "hall", "厨房": "kitchen"})
 SENTENCE = "go to the hall, wait five minutes, then tell Dad it's late in the kitchen"
 
@@ -68,17 +71,24 @@ def test_a_plan_of_what_the_sentence_lacks_is_refused(label: str) -> None:
         write_actions(parse_plan(label), cut_units(SENTENCE, NAMES))
 
 
+@cache
+def drawn(kind: type[N], seed: int) -> N:
+    """Draw a network once: its weights take longer than what they read."""
+    weights = draw_weights(seed)
+    return kind(
+        {name: quantise(each) for name, each in weights.items() if each.ndim > 1},
+        {name: each for name, each in weights.items() if each.ndim == 1},
+    )
+
+
 _WORDS = ("kitchen", "the hall", "厨房", "five minutes", "90 degrees", "twice", "“now”", '"', "2 m")
 
 
 @settings(max_examples=60, deadline=None)
-@given(st.integers(0, 99), st.lists(st.sampled_from(_WORDS), min_size=1, max_size=12))
+@given(st.integers(0, 9), st.lists(st.sampled_from(_WORDS), min_size=1, max_size=12))
+@example(9, ['"'])  # the sentence holds nothing of what the grammar wants next
 def test_any_weights_write_a_plan_of_what_the_sentence_holds(seed: int, words: list[str]) -> None:
-    weights = draw_weights(seed)
-    network = PointerNetwork(
-        {name: quantise(each) for name, each in weights.items() if each.ndim > 1},
-        {name: each for name, each in weights.items() if each.ndim == 1},
-    )
+    network = drawn(PointerNetwork, seed)
     said = cut_units(" ".join(words), NAMES)
     parsed = decode_plan(network, said)
     if parsed is not None:
@@ -88,15 +98,12 @@ def test_any_weights_write_a_plan_of_what_the_sentence_holds(seed: int, words: l
 
 
 @settings(max_examples=40, deadline=None)
-@given(st.integers(0, 99), st.lists(st.sampled_from(_WORDS), min_size=1), st.floats(0.0, 1.0))
+@given(st.integers(0, 9), st.lists(st.sampled_from(_WORDS), min_size=1), st.floats(0.0, 1.0))
 def test_a_reading_that_is_less_sure_than_asked_is_none_and_ends_early(
     seed: int, words: list[str], least: float
 ) -> None:
-    weights = draw_weights(seed)
-    network = _CountingNetwork(
-        {name: quantise(each) for name, each in weights.items() if each.ndim > 1},
-        {name: each for name, each in weights.items() if each.ndim == 1},
-    )
+    network = drawn(_CountingNetwork, seed)
+    network.steps = 0
     said = cut_units(" ".join(words[:12]), NAMES)
     whole = decode_plan(network, said)
     in_full, network.steps = network.steps, 0

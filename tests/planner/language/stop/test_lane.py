@@ -252,11 +252,6 @@ def test_an_order_to_stand_where_it_is_stops_whatever_is_said_around_it(
     assert parse(said).reading is not StopReading.NONE
 
 
-def test_the_tables_hold_no_sentence_twice() -> None:
-    tables = [*STOPS, *QUITS, *GOES_ON]
-    assert len(set(tables)) == len(tables) >= 80
-
-
 @given(st.text(max_size=200))
 @settings(max_examples=150)
 def test_any_text_gets_an_answer(text: str) -> None:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import pytest
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 PLACES = {"厨房": "kitchen", "走廊": "hallway", "客厅": "living_room"}
 SAID = ("饭好了", "我回来了", "该喝水了")
