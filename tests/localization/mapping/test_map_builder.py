@@ -25,7 +25,6 @@ from tests.localization.rooms import ROOM, Boxes, cast, points_of
 from wire import Pose2
 
 Floats = NDArray[np.float64]
-
 START = np.array((3.0, 2.0, 0.1))
 CUPBOARD = (1.0, 3.0, 2.2, 4.0)
 TURN_RAD = 0.1

@@ -26,7 +26,6 @@ from tests.localization.rooms import RES_M, ROOM, Boxes, cast, points_of
 from wire import Pose2
 
 Floats = NDArray[np.float64]
-
 TABLE = (4.0, 2.6, 4.8, 3.2)
 LIDAR_M = (0.0, 0.0)
 
