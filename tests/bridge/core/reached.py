@@ -35,8 +35,7 @@ def hold() -> World:
 
 def hold_granted() -> World:
     world = reached("disarmed").arm()
-    assert world.planner is not None
-    world.planner.mission = "m1"
+    world.brain.mission = "m1"
     world.run(0.5)
     return world
 
@@ -47,8 +46,7 @@ def active() -> World:
 
 def turning() -> World:
     world = reached("disarmed").arm()
-    assert world.planner is not None
-    world.planner.mission, world.planner.goal_m = "m1", (-4.0, 0.0)
+    world.brain.mission, world.brain.goal_m = "m1", (-4.0, 0.0)
     world.until(Mode.ACTIVE)
     world.run(0.6)
     return world

@@ -50,15 +50,6 @@ def test_no_stamp_makes_a_reading_younger(
     assert sensor_age_s(now_s, received_s, stamp_s, same_host=same_host) >= now_s - received_s
 
 
-def test_256_statuses_are_remembered_and_no_more() -> None:
-    ring: tuple[float, ...] = ()
-    for seq in range(1, 301):
-        ring = append_sent(ring, float(seq))
-    assert ring == tuple(float(seq) for seq in range(45, 301))
-    known = {seen: sent_at(ring, 300, seen) for seen in (44, 45, 300, 301)}
-    assert known == {44: None, 45: 45.0, 300: 300.0, 301: None}
-
-
 @table(
     ("stamp_s", "same_host", "age_s"),
     [(8.0, True, 2.0), (9.0, True, 1.0), (9.5, True, 1.0), (8.0, False, 1.0), (9.5, False, 1.0)],

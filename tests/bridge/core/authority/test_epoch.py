@@ -121,18 +121,16 @@ def test_what_differs_is_named_with_both_values_and_a_remedy(
     field: str, came: object, code: str, to_do: str
 ) -> None:
     world = World()
-    assert world.planner is not None
-    plain = world.planner.hello
+    plain = world.brain.hello
 
     def changed(status: object) -> Hello:
         return plain(status).model_copy(update={field: came})  # type: ignore[arg-type]
 
-    world.planner.hello = changed  # type: ignore[method-assign]
+    world.brain.hello = changed  # type: ignore[method-assign]
     world.ready()
     world.run(0.5)
     assert world.state.ownership.owner is None
-    assert world.status is not None
-    (answer,) = [item for item in world.status.answers if item.kind == "hello"]
+    (answer,) = [item for item in world.shown.answers if item.kind == "hello"]
     assert (answer.accepted, answer.code) == (False, code)
     assert f"came {came}, expected " in answer.detail
     assert to_do in answer.detail

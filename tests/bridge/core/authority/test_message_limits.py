@@ -68,7 +68,6 @@ def test_halves_follow_each_other(
 
 
 NOW_S = 100.0
-
 ONE, TWO, NONE = (1, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0), (0,) * 6
 
 
@@ -167,10 +166,3 @@ def test_a_bucket_of_ten_loses_one_in_half_a_second_and_one_per_good_message() -
     message_limits.drain(tick)
     message_limits.good(tick)
     assert tick.s.bad_bucket == 0.0
-
-
-def test_a_full_bucket_stays_full_and_an_empty_one_empty() -> None:
-    tick = tick_of(reached("active"))
-    tick.s.bad_bucket = 10.0
-    message_limits.bad(tick, "x")
-    assert tick.s.bad_bucket == 10.0

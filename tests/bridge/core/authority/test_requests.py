@@ -19,11 +19,12 @@ def at(start: str) -> TickContext:
     return tick_of(reached(start))
 
 
-@table(("age_s", "renewed"), [(60.0 - EPS, False), (60.0 + EPS, True)])
+@table(("age_s", "renewed"), [(60.0 - EPS, False), (60.0, True)])
 def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
     age_s: float, renewed: bool
 ) -> None:
     tick = at("disarmed")
+    tick.now_s = 100.0
     tick.s.operator = replace(tick.s.operator, nonce_made_s=tick.now_s - age_s)
     tick.inbox = Inbox(chance="c" * 16)
     before = tick.s.operator
@@ -45,7 +46,7 @@ def test_a_nonce_lasts_for_a_minute_and_the_old_one_ten_seconds_more(
     if renewed:
         old = f"b0.{before.nonce_no}.{before.nonce_tag}"
         assert requests.old_nonce_text(tick) == old
-        for more_s, codes in ((10.0 - EPS, []), (EPS * 2, ["old_nonce"])):
+        for more_s, codes in ((10.0, []), (EPS, ["old_nonce"])):
             tick.now_s += more_s
             told = requests.bad_proof(tick, "arm", "a1", old, authentic=True)
             assert [code for code, _ in told] == codes

@@ -7,8 +7,6 @@ from typing import Any
 
 import pytest
 
-from bridge.core import Inbox, initial, step
-from bridge.core.geometry.fence import FenceGrid, build_fence
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.selftest import (
     DONE,
@@ -30,13 +28,9 @@ from tests.bridge.core.table import table
 from wire import Mode, RobotDescription
 
 NOW_S = 10.0
-
 DRIVE = RobotDescription().drive
-
 PATIENCE_S = DRIVE.timeout_s + DRIVE.lag_s + 0.3
-
 EPS = 1e-9
-
 UGV = RobotDescription.model_validate({"drive": {"kind": "waveshare", "port": "/dev/x"}})
 
 
@@ -231,18 +225,6 @@ def test_commands_are_withheld_in_that_phase_of_a_self_test_alone(start: str) ->
     assert tick.s.mode is mode
     for phase in (ECHO, WITHHOLD, RETURN, DONE):
         assert withholds(proving(phase)) is (phase == WITHHOLD)
-
-
-def test_a_fence_that_is_missing_or_of_another_map_fails_the_self_test() -> None:
-    for fence, code in ((None, "fence_missing"), (other_map(), "fence_of_another_map")):
-        core = replace(config(), fence=fence)
-        decision = step(core, initial(core, 1.0), Inbox(), 1.01)
-        assert decision.state.mode is Mode.FAULT
-        assert decision.state.fault == code
-
-
-def other_map() -> FenceGrid:
-    return build_fence("0" * 16, (((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)),))
 
 
 @table("start", ["hold", "active", "teleop"])
