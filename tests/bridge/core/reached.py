@@ -162,3 +162,8 @@ def reached(name: str) -> World:
 def tick_of(world: World) -> TickContext:
     """Return the next tick of a world, in which nothing has come."""
     return TickContext(world.core, draft(world.state), Inbox(), world.now_s, PERIOD_S)
+
+
+def at(start: str = "active") -> TickContext:
+    """Return the next tick of a world that reached a mode."""
+    return tick_of(reached(start))

@@ -11,7 +11,7 @@ from bridge.core.authority.epoch import new_epoch
 from bridge.core.authority.requests import refuse_openly
 from bridge.core.state_orders import Ownership, Stick
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
 from wire import PROTOCOL, HeldReason, Hello, Owner, StandingHold
@@ -19,7 +19,7 @@ from wire import PROTOCOL, HeldReason, Hello, Owner, StandingHold
 
 @table(("start", "keep_stick"), [("active", False), ("active_external", True), ("teleop", True)])
 def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: bool) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     s = tick.s
     s.ownership = replace(s.ownership, waypoints_seq=7, external_seq=8)
     s.leg = replace(reached("active").state.leg, refusal="fence")
@@ -35,10 +35,6 @@ def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: boo
     assert s.stick == (replace(stick, seq=-1) if keep_stick else Stick())
     assert s.grants.mission is None
     assert tick.events == [("epoch", "test")]
-
-
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
 
 
 def hello(tick: TickContext, **more: object) -> Hello:

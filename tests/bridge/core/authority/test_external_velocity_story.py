@@ -12,7 +12,7 @@ from bridge.core.geometry.fence import build_fence
 from bridge.core.state_orders import External
 from tests.bridge.core.external_brain import drive_for, external_world, say
 from tests.bridge.core.fake_planner import MAP_ID
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
 from wire import STILL, Action, Mode, Owner, Twist2, Velocity
@@ -180,7 +180,7 @@ def test_blocked_it_stays_so_on_what_is_old_or_let_go_of(held: bool) -> None:
 
 def test_another_brain_is_followed_as_its_hand_says() -> None:
     for held, asked in ((True, Twist2(0.2, 0.1)), (False, STILL)):
-        tick = tick_of(reached("active_external"))
+        tick = at("active_external")
         tick.s.bad_bucket = 3.0
         last = tick.s.ownership.external_seq
         assert last is not None
@@ -208,7 +208,7 @@ def test_another_brain_is_followed_as_its_hand_says() -> None:
 def test_another_brain_is_not_followed_without_its_rights(
     change: str, code: str, score: float
 ) -> None:
-    tick = tick_of(reached("active_external"))
+    tick = at("active_external")
     tick.s.bad_bucket = 3.0
     before, last = tick.s.external, tick.s.ownership.external_seq
     assert last is not None

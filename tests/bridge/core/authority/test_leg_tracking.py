@@ -12,7 +12,7 @@ from bridge.core.motion.wheel_command import take_horizon
 from bridge.core.state_motion import NEW, FollowState
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import MAP_ID
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.table import table
 from tests.bridge.core.windows import dropped
 from wire import Owner, Pose2, Waypoint, Waypoints
@@ -22,7 +22,7 @@ FOLLOWED = FollowState(0.4, turning=True, settled=True, tries=2)
 
 def driving() -> TickContext:
     """Return a tick of a robot on its way, at (1, 0) of its map."""
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.robot_in_map = Pose2(1.0, 0.0, 0.0)
     tick.s.motion.follow = FOLLOWED
     tick.s.bad_bucket = 3.0
@@ -195,7 +195,7 @@ def test_a_horizon_calls_only_where_it_asks_for_motion(against: str) -> None:
 def test_a_message_of_the_very_moment_of_a_jump_is_of_before(
     sent_s: float, lateness: str | None
 ) -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.now_s = 0.5
     tick.s.pose = replace(tick.s.pose, jumped_s=0.0)
     horizon = tick.s.leg.horizon

@@ -10,15 +10,11 @@ from bridge.core.authority import epoch, ownership
 from bridge.core.authority.requests import refuse_openly
 from bridge.core.state_orders import Grants, MissionLeft
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.table import table
 from wire import Grant, Heartbeat, HeldReason, StandingHold
 
 EPS = 1e-6
-
-
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
 
 
 @table(("age_s", "lives"), [(0.0, True), (0.3, True), (0.3 + EPS, False)])

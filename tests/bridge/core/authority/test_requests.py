@@ -8,15 +8,11 @@ from bridge.core import Inbox
 from bridge.core.authority import requests
 from bridge.core.state_orders import TimedAnswer
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.table import table
 from wire import Answer
 
 EPS = 1e-6
-
-
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
 
 
 @table(("age_s", "renewed"), [(60.0 - EPS, False), (60.0, True)])
@@ -74,7 +70,7 @@ def test_a_proof_is_used_once_under_either_nonce() -> None:
 
 def quiet() -> TickContext:
     """Return a tick in which nobody has been answered or refused anything yet."""
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.s.operator = replace(tick.s.operator, answers=(), refusals=())
     return tick
 

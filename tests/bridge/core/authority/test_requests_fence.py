@@ -8,7 +8,7 @@ import pytest
 
 from bridge.core.authority.requests import hear_fence, nonce_text
 from bridge.core.inbox import FenceArrival, FenceDone
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.scripted import World
 from wire import Mode
 
@@ -165,7 +165,7 @@ def test_an_answer_nobody_waits_for_changes_nothing(world: World) -> None:
 
 def test_half_a_second_of_standing_is_long_enough() -> None:
     for still_s, refused in ((0.48, True), (0.52, False)):
-        tick = tick_of(reached("disarmed"))
+        tick = at("disarmed")
         tick.s.drive.still_since_s = tick.now_s - still_s
         tick.robot_in_map = tick.s.odometry.base_in_odom
         arrived = FenceArrival("f1", "cli", nonce_text(tick), authentic=True, text=TEXT)

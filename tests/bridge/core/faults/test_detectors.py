@@ -14,16 +14,12 @@ from bridge.core.state import RowUp
 from bridge.core.state_orders import External
 from bridge.core.state_senses import Flood
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
 
 EPS = 1e-6
 Dirty = list[tuple[str, str]]
-
-
-def at(start: str = "active") -> TickContext:
-    return tick_of(reached(start))
 
 
 NOW_S = 100.0

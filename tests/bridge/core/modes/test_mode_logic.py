@@ -16,7 +16,7 @@ from bridge.core.motion.motion_gates import forget_block
 from bridge.core.state import RowUp
 from bridge.core.state_motion import Gate, LimiterState, Stopping, StopPlan
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
 from wire import STILL, Action, HeldReason, Mode, Twist2
@@ -28,7 +28,7 @@ def waiting(
     start: str, since_s: float | None, *, blocked: bool, must_stop: bool, by: str = "obstacle"
 ) -> TickContext:
     """Let a mission have waited for so long when a tick begins; call what tires of it."""
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.now_s = 1000.0
     tick.s.waits_since_s = None if since_s is None else tick.now_s - since_s
     tick.s.gate = Gate(blocked=blocked, by=by, free_scans=2)
@@ -94,7 +94,7 @@ def test_a_mission_that_waited_too_long_is_revoked_and_its_rest_kept(
 def test_a_horizon_grown_old_is_forgotten_where_the_robot_stands(
     start: str, age_s: float, kept: bool
 ) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     leg = reached("active").state.leg
     tick.s.leg = replace(leg, sent_s=tick.now_s - age_s)
     expire_holding(tick, must_stop=False)
@@ -116,7 +116,7 @@ def test_a_horizon_grown_old_is_forgotten_where_the_robot_stands(
 def test_a_blocked_way_holds_unless_something_worse_does(
     rows: tuple[str, ...], gate: Gate, mode: Mode, why: str
 ) -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.s.gate = gate
     tick.s.rows = {name: RowUp(tick.now_s, tick.now_s, "by hand") for name in rows}
     decide(tick)
@@ -128,7 +128,7 @@ def test_a_blocked_way_holds_unless_something_worse_does(
 
 def calling(start: str) -> TickContext:
     """Return a tick in which a horizon or an external brain calls a standing robot."""
-    tick = tick_of(reached("hold_granted"))
+    tick = at("hold_granted")
     other = reached(start).state
     tick.s.leg = replace(other.leg, sent_s=tick.now_s)
     if other.external is not None:
@@ -175,7 +175,7 @@ def test_nobody_is_called_against_what_forbids_it(against: str) -> None:
     ],
 )
 def test_nobody_arrives_before_the_end(start: str, stands: bool, at_end: bool, mode: Mode) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.s.drive.still_since_s = tick.now_s if stands else None
     arrive(tick, at_end=at_end)
     assert tick.s.mode is mode
@@ -194,7 +194,7 @@ def test_nobody_arrives_before_the_end(start: str, stands: bool, at_end: bool, m
 def test_who_stands_at_the_end_has_arrived(
     start: str, stands: bool, at_end: bool, mode: Mode
 ) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.s.drive.still_since_s = tick.now_s if stands else None
     tick.s.external = None
     if tick.s.leg.horizon is not None:
@@ -216,7 +216,7 @@ def test_each_detector_that_a_hazard_names_is_run_and_no_other() -> None:
         for one in detectors.DETECTORS
     ]
     assert sorted(run) == sorted(named)
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.s.drive.reborn_s = tick.now_s
     decide_module.detect(tick)
     assert "DRIVE_REBOOT.0" in tick.s.rows
@@ -224,7 +224,7 @@ def test_each_detector_that_a_hazard_names_is_run_and_no_other() -> None:
 
 @table("start", ["hold", "active", "teleop"])
 def test_whoever_follows_is_stopped_by_what_must_stop(start: str) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.s.rows = {"DRIVE_REBOOT.0": RowUp(tick.now_s, tick.now_s, "by hand")}
     before = tick.s.mode.value
     decide(tick)
@@ -233,7 +233,7 @@ def test_whoever_follows_is_stopped_by_what_must_stop(start: str) -> None:
 
 @table(("resumes", "mode"), [(True, Mode.ACTIVE), (False, Mode.STOPPING)])
 def test_only_a_stop_that_may_go_on_goes_on(resumes: bool, mode: Mode) -> None:
-    tick = tick_of(reached("stopping_by_row"))
+    tick = at("stopping_by_row")
     assert tick.s.stopping is not None
     tick.s.stopping = replace(tick.s.stopping, resumes=resumes)
     tick.s.leg = replace(reached("active").state.leg, sent_s=tick.now_s)
@@ -255,7 +255,7 @@ def stop_of(since_s: float, **more: object) -> Stopping:
 
 def standing(start: str = "stopping_by_row", /, **more: object) -> TickContext:
     """Return a tick in which the robot has stood for 0.2 s and is told to stand."""
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.s.drive.still_since_s = tick.now_s - 0.2
     tick.s.motion.limiter = LimiterState()
     tick.s.stopping = stop_of(tick.now_s - 0.3, **more)
@@ -307,7 +307,7 @@ def test_a_stop_that_nobody_measures_ends_when_its_time_is_over(
 
 
 def rolling(speed_mps: float, elapsed_s: float, **more: object) -> TickContext:
-    tick = tick_of(reached("stopping_by_row"))
+    tick = at("stopping_by_row")
     tick.s.drive.still_since_s = None
     tick.s.odometry = replace(tick.s.odometry, measured=Twist2(speed_mps, 0.0))
     tick.s.stopping = stop_of(tick.now_s - elapsed_s, **more)
@@ -346,7 +346,7 @@ def test_one_reading_in_two_that_is_slow_enough_hides_no_stop_that_is_not() -> N
 
 @table(("start", "mode"), [("stopping_by_row", Mode.FAULT), ("estopped", None)])
 def test_a_failure_cuts_the_torque(start: str, mode: Mode | None) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     before = tick.s.mode
     tick.s.drive.still_since_s = None
     tick.s.stopping = stop_of(tick.now_s - 9.0)

@@ -17,7 +17,7 @@ from bridge.core.modes.operator import arm_lacks, ready_lacks, reset_lacks
 from bridge.core.state import RowUp
 from bridge.core.state_orders import PendingFence
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached, tick_of
 from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
 from wire import IDENTITY, HeldReason, Mode, OpKind, OpRequest, Proof, StandingHold, Stop
@@ -204,10 +204,6 @@ def test_a_row_that_disarms_sets_held_and_arming_clears_it() -> None:
 HELD = StandingHold(reason=HeldReason.STOP, id="s1")
 
 
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
-
-
 def test_each_act_of_a_person_ends_what_it_should() -> None:
     tick = at("hold")
     tick.s.held = HELD
@@ -339,7 +335,7 @@ NOW_S, EPS = 10.0, 1e-6
 
 def standing(start: str) -> TickContext:
     """Return a tick at 10 s of a robot that has long stood and is being recorded."""
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.now_s, tick.s.rows = NOW_S, {}
     tick.s.drive.received_s, tick.s.drive.still_since_s = NOW_S, 0.0
     tick.s.loop = replace(tick.s.loop, recorder_ok=True)
@@ -428,7 +424,7 @@ def test_nobody_is_armed_before_a_scan_has_come() -> None:
 
 
 def test_every_reason_is_told_to_the_last() -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     assert [code for code, _ in arm_lacks(tick)] == ["not_disarmed"]
     assert [code for code, _ in reset_lacks(tick)] == ["not_latched"]
     for nonce, authentic, code in ((None, True, "bad_proof"), ("b0.0", True, "old_nonce")):

@@ -22,7 +22,7 @@ from bridge.core.modes.selftest import (
 from bridge.core.state import SelfTest
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.scripted import FENCE, config
 from tests.bridge.core.table import table
 from wire import Mode, RobotDescription
@@ -36,7 +36,7 @@ UGV = RobotDescription.model_validate({"drive": {"kind": "waveshare", "port": "/
 
 def proving(phase: str = DONE, **change: Any) -> TickContext:
     """Return a tick of a self test that lacks nothing: it has stood for 1 s, all has just come."""
-    tick = tick_of(reached("disarmed"))
+    tick = at("disarmed")
     s = tick.s
     assert s.drive.newest is not None
     tick.now_s, s.mode = NOW_S, Mode.SELFTEST
@@ -217,7 +217,7 @@ def test_a_fence_that_is_none_or_anothers_is_wrong(lost: str) -> None:
 
 @table("start", ["boot", "disarmed", "hold", "active", "estopped", "fault"])
 def test_commands_are_withheld_in_that_phase_of_a_self_test_alone(start: str) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.s.selftest = SelfTest(WITHHOLD)
     assert not withholds(tick)
     mode = tick.s.mode
@@ -229,7 +229,7 @@ def test_commands_are_withheld_in_that_phase_of_a_self_test_alone(start: str) ->
 
 @table("start", ["hold", "active", "teleop"])
 def test_where_the_mode_table_knows_no_way_in_nothing_begins(start: str) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     before = (tick.s.mode, tick.s.selftest)
     enter(tick, Fact.UP, "up")
     assert (tick.s.mode, tick.s.selftest) == before

@@ -9,16 +9,12 @@ import pytest
 from bridge.core.modes import teleop
 from bridge.core.modes.teleop import CAUSAL_S
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.table import table
 from tests.bridge.core.windows import dropped
 from wire import HeldReason, Mode, StandingHold, Velocity
 
 EPS = 1e-6
-
-
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
 
 
 def velocity(

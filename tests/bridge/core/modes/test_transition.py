@@ -27,7 +27,7 @@ from bridge.core.motion.limiter import shape, stopping_m
 from bridge.core.motion.wheel_command import requested_twist
 from bridge.core.state_motion import NO_STOP, LimiterState, Profile, Stopping, StopPlan, profile_of
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
 from wire import STILL, Action, HeldReason, Mode, RobotDescription, StandingHold, Twist2
@@ -38,7 +38,7 @@ LATER_S = 0.5
 
 def later(start: str) -> TickContext:
     """Return a tick half a second after the mode was reached."""
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.now_s += LATER_S
     return tick
 

@@ -15,7 +15,7 @@ from bridge.core.motion.braking import after_cut, after_stop, speed_scale
 from bridge.core.motion.free_distance import FreeLength
 from bridge.core.state_motion import AS_CONFIGURED, UNLEARNT, Braking, Learnt, LimiterState, Ramp
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.table import table
 from wire import STILL, RobotDescription, Twist2
 
@@ -376,7 +376,7 @@ def ticking(
     sent: Twist2, was: Twist2, real: Twist2, measured: Twist2
 ) -> tuple[TickContext, TickContext]:
     """Return a tick that sends one motion, and the one before it; both measure something."""
-    before, tick = tick_of(reached("active")), tick_of(reached("active"))
+    before, tick = at(), at()
     for one, limiter, odometry in ((before, was, measured), (tick, sent, real)):
         one.now_s = 10.0
         one.config = replace(one.config, robot=ROBOT)

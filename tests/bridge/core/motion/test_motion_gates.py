@@ -25,7 +25,7 @@ from bridge.core.sensing.sensor_update import look_m
 from bridge.core.state_motion import Gate, Learnt
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import MAP_ID
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
 from wire import STILL, Mode, Pose2, Twist2
@@ -36,7 +36,7 @@ AHEAD = Twist2(0.5, 0.0)
 
 def driving(ranges_m: float | None = 3.0, *, start: str = "active", **drive: bool) -> TickContext:
     """Return a tick with a scan that shows the same distance all around, taken here and now."""
-    tick = tick_of(reached(start))
+    tick = at(start)
     scan = tick.s.lidar.newest
     assert scan is not None
     scan = scan.model_copy(
@@ -229,7 +229,7 @@ def test_a_scan_is_as_old_as_its_row_judges() -> None:
 def test_the_fence_counts_what_was_learnt_of_the_brakes(
     learnt: Learnt, start: str, v_mps: float
 ) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     edge_m = reached(start).here.x_m + 0.16
     square = ((-5.0, -5.0), (edge_m, -5.0), (edge_m, 5.0), (-5.0, 5.0))
     fence = build_fence(MAP_ID, (square,))
@@ -253,7 +253,7 @@ def test_where_the_fence_is_cannot_be_told_without_a_pose_so_a_hand_alone_passes
     start: str,
 ) -> None:
     """No row is up here: the gate asks none."""
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.robot_in_map, tick.s.motion.bound_by = None, "robot"
     passes = start == "teleop"
     assert _inside_fence(tick, AHEAD) == (AHEAD if passes else STILL)
@@ -268,7 +268,7 @@ def test_further_outside_than_the_fence_is_known_a_hand_alone_moves_it(
     start: str, v_mps: float
 ) -> None:
     """Inward or not: how far it is to the fence is told up to 1 m, so no gain can be shown."""
-    tick, far = tick_of(reached(start)), Pose2(3.0, 0.0, pi)
+    tick, far = at(start), Pose2(3.0, 0.0, pi)
     fence = build_fence(MAP_ID, (((-5.0, -5.0), (1.5, -5.0), (1.5, 5.0), (-5.0, 5.0)),))
     tick.config, tick.robot_in_map = replace(tick.config, fence=fence), far
     passed = 0.2 if start == "teleop" else 0.0
@@ -291,7 +291,7 @@ def test_further_outside_than_the_fence_is_known_a_hand_alone_moves_it(
 def test_a_hand_that_crosses_the_fence_is_told_of_once_a_crossing(
     start: str, margins_m: tuple[float, ...], said: int
 ) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     fence = build_fence(MAP_ID, (((-5.0, -5.0), (1.5, -5.0), (1.5, 5.0), (-5.0, 5.0)),))
     tick.config = replace(tick.config, fence=fence)
     for margin_m in margins_m:
@@ -301,7 +301,7 @@ def test_a_hand_that_crosses_the_fence_is_told_of_once_a_crossing(
 
 
 def test_what_a_hand_took_out_and_a_planner_brought_in_may_be_taken_out_anew() -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.s.watch.outside = True
     tick.robot_in_map = Pose2(0.0, 0.0, 0.0)
     _inside_fence(tick, AHEAD)

@@ -15,9 +15,8 @@ from bridge.core.motion.obstacle_gate import weak_m
 from bridge.core.reporting import report
 from bridge.core.state import BridgeState, RowUp, Voice, draft
 from bridge.core.state_motion import Gate, Learnt, LimiterState
-from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
 from wire import HeldReason, Imu, Mode, StandingHold, Twist2
@@ -42,7 +41,7 @@ EPS = 1e-9
 def test_a_status_is_due_20_times_a_second_or_at_once_but_never_over_40(
     last_s: float | None, now_s: float, changed: bool, pending: bool, sent: bool
 ) -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     before = reached("active").state
     tick.now_s = now_s
     tick.s.voice = voice = Voice(status_seq=7, ring=(3.0,), status_s=last_s, pending=pending)
@@ -105,7 +104,7 @@ def test_odometry_goes_out_every_other_tick_as_of_its_reading(
 ) -> None:
     imu = Imu(boot_id="g0", seq=1, stamp_s=1.0, yaw_rate_radps=0.5, accel_x_mps2=0, accel_y_mps2=0)
     for gyro in (imu, None):
-        tick = tick_of(reached("active"))
+        tick = at()
         drive = tick.s.drive
         assert drive.newest is not None
         drive.newest = drive.newest.model_copy(update={"stamp_s": 2.5}) if heard else None
@@ -121,7 +120,7 @@ def test_odometry_goes_out_every_other_tick_as_of_its_reading(
 
 @table(("now_s", "at_s"), [(0.5, 0.5), (-1.0, 0.0), (0.0, 0.0)])
 def test_events_are_numbered_on(now_s: float, at_s: float) -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.now_s, tick.s.voice = now_s, replace(tick.s.voice, event_seq=4)
     assert report.events_of(tick) == ()
     assert tick.s.voice.event_seq == 4
@@ -133,10 +132,6 @@ def test_events_are_numbered_on(now_s: float, at_s: float) -> None:
     ]  # fmt: skip
     assert events[0].detail == "x" * 400
     assert tick.s.voice.event_seq == 6
-
-
-def at(start: str = "active") -> TickContext:
-    return tick_of(reached(start))
 
 
 @table(
