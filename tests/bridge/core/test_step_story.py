@@ -9,7 +9,7 @@ import pytest
 from bridge.core.geometry.fence import build_fence
 from tests.bridge.core.fake_planner import MAP_ID, FakeDrive, FakePlanner
 from tests.bridge.core.scripted import World, config
-from wire import IDENTITY, HeldReason, Mode, Pose2, RobotDescription, Waypoints
+from wire import HeldReason, Mode, Pose2, RobotDescription, Waypoints
 
 
 def test_a_sentence_worth_of_motion_ends_reached_and_standing() -> None:
@@ -126,19 +126,6 @@ def test_what_was_said_before_the_silence_is_not_obeyed() -> None:
     assert world.sent.v_mps == 0.0
 
 
-def test_a_long_silence_disarms_and_a_person_must_arm() -> None:
-    world = World().driving()
-    world.brain.silent = True
-    world.run(7.0)
-    assert world.is_in(Mode.DISARMED)
-    assert not world.told.enable
-    world.brain.silent = False
-    world.run(2.0)
-    assert world.is_in(Mode.DISARMED)
-    world.op("arm")
-    world.until(Mode.ACTIVE, 1.0)
-
-
 def test_another_planner_is_told_and_then_held() -> None:
     world = World().driving()
     other = FakePlanner(planner_id="p2")
@@ -158,18 +145,6 @@ def test_another_planner_is_told_and_then_held() -> None:
     assert world.is_in(Mode.HOLD)
     world.op("resume")
     world.until(Mode.ACTIVE, 1.0)
-
-
-def test_what_a_mission_used_survives_epochs() -> None:
-    world = World().driving()
-    left = world.state.grants.metres
-    assert left < 20.0
-    world.stop()
-    world.until(Mode.STOPPING, 0.1)
-    world.until(Mode.HOLD, 2.0)
-    world.op("resume")
-    world.until(Mode.ACTIVE, 1.0)
-    assert world.state.grants.metres <= left
 
 
 def test_a_jump_of_the_pose_needs_a_grant_that_knows_of_it() -> None:
@@ -231,25 +206,6 @@ def test_a_turn_that_passes_beside_a_closed_way_is_no_way() -> None:
     assert world.state.waits_since_s is not None
 
 
-def test_a_jump_behind_a_poor_pose_is_a_jump() -> None:
-    world = World().driving((4.0, 0.0))
-    world.quality, world.odom_in_map = 0.2, Pose2(0.4, 0.0, 0.0)  # carried, say
-    world.run(0.2)
-    assert "POSE_JUMP.0" not in world.rows()
-    world.quality = 1.0
-    world.run(0.1)
-    assert "POSE_JUMP.0" in world.rows()
-
-
-def test_a_poor_pose_between_two_equal_ones_is_no_jump() -> None:
-    world = World().driving((4.0, 0.0))
-    world.quality, world.odom_in_map = 0.2, Pose2(0.4, 0.0, 0.0)
-    world.run(0.2)
-    world.quality, world.odom_in_map = 1.0, IDENTITY
-    world.run(0.7)
-    assert not {"POSE_JUMP.0", "POSE_LOST.0"} & world.rows()
-
-
 @pytest.mark.parametrize("away_m", [0.01, 0.5, 1.5])
 def test_a_robot_outside_its_fence_is_said_and_a_stick_brings_it_in(away_m: float) -> None:
     outline = ((away_m, -1.0), (5.0, -1.0), (5.0, 1.0), (away_m, 1.0))
@@ -277,18 +233,6 @@ def test_a_robot_that_does_not_know_where_it_is_is_not_said_to_be_outside() -> N
     assert world.shown.waiting_for == ()
 
 
-def test_what_has_not_arrived_is_waited_for_by_name() -> None:
-    world = World(lidar_silent=True, drive_silent=True, planner=None)
-    world.run(1.0)
-    assert world.is_in(Mode.SELFTEST)
-    assert {"drive", "drive_echo", "lidar", "lidar_baseline"} <= set(world.shown.waiting_for)
-    world.drive_silent = False
-    world.run(2.0)
-    assert world.shown.waiting_for == ("lidar", "lidar_baseline")
-    world.lidar_silent = False
-    world.until(Mode.DISARMED, 5.0)
-
-
 def test_a_base_that_does_not_tell_its_time_out_is_never_left_in_silence_and_slow() -> None:
     ugv = RobotDescription.model_validate({"drive": {"kind": "waveshare", "port": "/dev/x"}})
     world = World(core=config(ugv), drive=FakeDrive(tells_time_out=False), real_time=True)
@@ -305,10 +249,3 @@ def test_a_base_that_does_not_tell_its_time_out_is_never_left_in_silence_and_slo
     )
     tried.until(Mode.DISARMED)
     assert tried.arm().drive_to((4.0, 0.0)).sent.v_mps > 0.3
-
-
-def test_a_drive_that_should_tell_its_time_out_and_does_not_is_never_armed() -> None:
-    world = World(drive=FakeDrive(tells_time_out=False))
-    world.run(5.0)
-    assert world.is_in(Mode.SELFTEST)
-    assert "drive_echo" in world.shown.waiting_for

@@ -69,6 +69,7 @@ def proving(phase: str = DONE, **change: Any) -> TickContext:
         (DONE, {"received_s": NOW_S - 0.25}, []),
         (DONE, {"received_s": NOW_S - 0.25 - EPS}, ["drive", "encoders_still"]),
         (DONE, {"received_s": None}, ["drive", "encoders_still"]),
+        (DONE, {"newest": None, "received_s": None}, ["drive", "encoders_still"]),
         (DONE, {"still_since_s": NOW_S - 0.5}, []),
         (DONE, {"still_since_s": NOW_S - 0.5 + 1e-6}, ["encoders_still"]),
         (DONE, {"scan_s": NOW_S - 0.25}, []),

@@ -319,8 +319,10 @@ def test_a_jump_takes_the_grant_and_the_way_and_is_told(
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=here)
     granted, leg = tick.s.grants, tick.s.leg
     assert None not in (granted.mission, leg.horizon, leg.path)
-    if sensor_update._hear_localization(tick, placed(odom_in_map=new, quality=quality)):
+    said = placed(odom_in_map=new, quality=quality)
+    if sensor_update._hear_localization(tick, said):
         revoke(tick)
+    assert tick.s.pose.good == (last if quality < 0.5 else said), "what is compared with next"
     assert tick.s.pose.jumped_s == (NOW_S if jumps else 1.0)
     assert tick.s.grants == (granted.return_budget() if jumps else granted)
     assert tick.s.leg == (replace(leg, horizon=None, path=None) if jumps else leg)
