@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import nan, sqrt
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -22,11 +23,7 @@ from wire import STILL, RobotDescription, Twist2
 EPS = 1e-6
 
 
-def robot_of(**parts: dict[str, float]) -> RobotDescription:
-    return RobotDescription.model_validate(parts)
-
-
-ROBOT = robot_of(limits={"max_decel_mps2": 0.8, "stop_jerk_mps3": 5.0})
+ROBOT = RobotDescription.model_validate({"limits": {"max_decel_mps2": 0.8, "stop_jerk_mps3": 5.0}})
 """Brakes at 0.8 m/s2 and takes 0.08 s of mean delay to build that up; 0.06 s late; 0.5 m wide."""
 BASE, LIMITS = ROBOT.base, ROBOT.limits
 
@@ -133,12 +130,16 @@ def test_inside_a_slow_area_its_speed_is_the_bound(gap_m: float) -> None:
     assert speed_before(gap_m, 0.2, 1.0, 0.1) == 0.2
 
 
-ROBOT = RobotDescription.model_validate({"limits": {"max_decel_mps2": 0.8, "stop_jerk_mps3": 5.0}})
-
-
-"""Brakes at 0.8 m/s2, is 0.06 s late, and takes 0.08 s of mean delay to brake."""
 LAG = Learnt(lag_more_s=0.1, lag_at_mps=0.5)
 WEAK = Learnt(decel_share=0.5, share_at_mps=0.5)
+
+
+def lag(better: int, worst_s: float) -> Learnt:
+    return replace(LAG, lag_better=better, lag_worst_s=worst_s)
+
+
+def weak(better: int, worst: float) -> Learnt:
+    return replace(WEAK, share_better=better, share_worst=worst)
 
 
 def ramp(sent_s: float = 0.5, real_s: float = 0.5, late_s: float = 0.06, **more: float) -> Ramp:
@@ -162,36 +163,16 @@ def test_what_is_known_is_in_force() -> None:
         (UNLEARNT, 0.01 + EPS, 0.4, Learnt(lag_more_s=0.01 + EPS, lag_at_mps=0.4)),
         (UNLEARNT, 0.9, 0.4, Learnt(lag_more_s=0.5, lag_at_mps=0.4)),
         (UNLEARNT, -1.0, 0.4, UNLEARNT),
-        (replace(LAG, lag_better=3, lag_worst_s=0.05), 0.11 - EPS, 0.4, LAG),
+        (lag(3, 0.05), 0.11 - EPS, 0.4, LAG),
         (LAG, 0.12, 0.3, Learnt(lag_more_s=0.12, lag_at_mps=0.3)),
-        (
-            replace(LAG, lag_better=3, lag_worst_s=0.05),
-            0.11 + EPS,
-            0.4,
-            Learnt(lag_more_s=0.11 + EPS, lag_at_mps=0.4),
-        ),
-        (replace(LAG, lag_better=3, lag_worst_s=0.05), 0.09 + EPS, 0.5, LAG),
-        (LAG, 0.09 - EPS, 0.5, replace(LAG, lag_better=1, lag_worst_s=0.09 - EPS)),
-        (LAG, 0.02, 0.4, replace(LAG, lag_better=1, lag_worst_s=0.02)),
+        (lag(3, 0.05), 0.11 + EPS, 0.4, Learnt(lag_more_s=0.11 + EPS, lag_at_mps=0.4)),
+        (lag(3, 0.05), 0.09 + EPS, 0.5, LAG),
+        (LAG, 0.09 - EPS, 0.5, lag(1, 0.09 - EPS)),
+        (LAG, 0.02, 0.4, lag(1, 0.02)),
         (LAG, 0.02, 0.4 - EPS, LAG),
-        (
-            replace(LAG, lag_better=3, lag_worst_s=0.05),
-            0.02,
-            0.5,
-            replace(LAG, lag_better=4, lag_worst_s=0.05),
-        ),
-        (
-            replace(LAG, lag_better=48, lag_worst_s=0.01),
-            0.02,
-            0.5,
-            replace(LAG, lag_better=49, lag_worst_s=0.02),
-        ),
-        (
-            replace(LAG, lag_better=49, lag_worst_s=0.05),
-            0.02,
-            0.5,
-            Learnt(lag_more_s=0.05, lag_at_mps=0.5),
-        ),
+        (lag(3, 0.05), 0.02, 0.5, lag(4, 0.05)),
+        (lag(48, 0.01), 0.02, 0.5, lag(49, 0.02)),
+        (lag(49, 0.05), 0.02, 0.5, Learnt(lag_more_s=0.05, lag_at_mps=0.5)),
     ],
 )
 def test_lag_is_worse_at_once_and_better_after_fifty(
@@ -205,21 +186,11 @@ def test_lag_is_worse_at_once_and_better_after_fifty(
     [
         (UNLEARNT, 0.95, 0.5, UNLEARNT),
         (WEAK, 0.55, 0.5, WEAK),
-        (WEAK, 0.55 + EPS, 0.5, replace(WEAK, share_better=1, share_worst=0.55 + EPS)),
-        (WEAK, 2.0, 0.4, replace(WEAK, share_better=1, share_worst=1.0)),
+        (WEAK, 0.55 + EPS, 0.5, weak(1, 0.55 + EPS)),
+        (WEAK, 2.0, 0.4, weak(1, 1.0)),
         (WEAK, 2.0, 0.4 - EPS, WEAK),
-        (
-            replace(WEAK, share_better=48, share_worst=0.7),
-            0.8,
-            0.5,
-            replace(WEAK, share_better=49, share_worst=0.7),
-        ),
-        (
-            replace(WEAK, share_better=49, share_worst=0.9),
-            0.8,
-            0.5,
-            Learnt(decel_share=0.8, share_at_mps=0.5),
-        ),
+        (weak(48, 0.7), 0.8, 0.5, weak(49, 0.7)),
+        (weak(49, 0.9), 0.8, 0.5, Learnt(decel_share=0.8, share_at_mps=0.5)),
     ],
 )
 def test_stronger_brakes_count_after_fifty(
@@ -234,12 +205,8 @@ def test_stronger_brakes_count_after_fifty(
         (UNLEARNT, 0.95, UNLEARNT),
         (UNLEARNT, 0.95 - EPS, Learnt(decel_share=0.95 - EPS, share_at_mps=0.4)),
         (UNLEARNT, 0.05, Learnt(decel_share=0.1, share_at_mps=0.4)),
-        (replace(WEAK, share_better=3, share_worst=0.6), 0.45, WEAK),
-        (
-            replace(WEAK, share_better=3, share_worst=0.6),
-            0.45 - EPS,
-            Learnt(decel_share=0.45 - EPS, share_at_mps=0.4),
-        ),
+        (weak(3, 0.6), 0.45, WEAK),
+        (weak(3, 0.6), 0.45 - EPS, Learnt(decel_share=0.45 - EPS, share_at_mps=0.4)),
     ],
 )
 def test_weaker_brakes_count_at_once(known: Learnt, share: float, after: Learnt) -> None:
@@ -272,13 +239,9 @@ def test_the_slope_between_the_marks_tells_weak_brakes(
     after = module._with_slope(known, stop, ROBOT)
     assert after.decel_share == pytest.approx(share, abs=1e-4)
     assert after.share_better == better
-    for cut in (
-        replace(stop, sent_high_s=None),
-        replace(stop, sent_low_s=None),
-        replace(stop, real_high_s=None),
-        replace(stop, real_low_s=None),
-    ):
-        assert module._with_slope(known, cut, ROBOT) == known
+    for mark in ("sent_high_s", "sent_low_s", "real_high_s", "real_low_s"):
+        cut: dict[str, Any] = {mark: None}
+        assert module._with_slope(known, replace(stop, **cut), ROBOT) == known
 
 
 def test_what_a_better_slope_shows_is_told_with_its_slack() -> None:
@@ -313,12 +276,12 @@ def test_what_brakes_do_not_explain_is_lag(
 
 
 def test_a_stop_sent_harder_than_it_brakes_ends_no_count_of_better_ones() -> None:
-    counting = replace(LAG, lag_better=7, lag_worst_s=0.01)
+    counting = lag(7, 0.01)
     assert after_stop(counting, ramp(sent_m=0.15, real_m=0.17), ROBOT).lag_better == 7
     assert after_stop(counting, ramp(sent_m=0.16, real_m=0.17), ROBOT).lag_better == 8
-    weak = replace(counting, decel_share=0.5, share_at_mps=0.9)  # its own path is 0.3125 m
-    assert after_stop(weak, ramp(sent_m=0.3, real_m=0.32), ROBOT).lag_better == 7
-    assert after_stop(weak, ramp(sent_m=0.32, real_m=0.33), ROBOT).lag_better == 8
+    weaker = replace(counting, decel_share=0.5, share_at_mps=0.9)  # its own path is 0.3125 m
+    assert after_stop(weaker, ramp(sent_m=0.3, real_m=0.32), ROBOT).lag_better == 7
+    assert after_stop(weaker, ramp(sent_m=0.32, real_m=0.33), ROBOT).lag_better == 8
 
 
 @table(
