@@ -132,9 +132,9 @@ def settle(drive: D) -> D:
     return drive
 
 
-def fork(drive: D) -> D:
+def fork(drive: D, *shared: object) -> D:
     """Return a drive of one's own that goes on from here; map and search are shared."""
-    return deepcopy(drive, {id(shared): shared for shared in (FIELD, SEARCH)})
+    return deepcopy(drive, {id(one): one for one in (FIELD, SEARCH, *shared)})
 
 
 @pytest.fixture(scope="session")
