@@ -249,3 +249,12 @@ def test_a_base_that_does_not_tell_its_time_out_is_never_left_in_silence_and_slo
     )
     tried.until(Mode.DISARMED)
     assert tried.arm().drive_to((4.0, 0.0)).sent.v_mps > 0.3
+
+
+def test_what_has_not_arrived_is_waited_for_by_name() -> None:
+    world = World(lidar_silent=True, drive_silent=True, planner=None)
+    world.run(1.0)
+    assert world.is_in(Mode.SELFTEST)
+    assert {"drive", "drive_echo", "lidar", "lidar_baseline"} <= set(world.shown.waiting_for)
+    world.lidar_silent = world.drive_silent = False
+    world.until(Mode.DISARMED, 5.0)
