@@ -77,7 +77,7 @@ e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and fro
 # that the others don't.
 BRANCHES := --cov=bridge.core --cov=wire --cov-branch --cov-report=term-missing:skip-covered \
   --cov-fail-under=100 --hypothesis-profile=coverage -m "not slow and not e2e" -n logical \
-  --ignore=tests/bridge/core/laws/test_enumerated.py --ignore=tests/bridge/core/laws/test_troubles_together.py \
+  --ignore=tests/bridge/core/laws/test_enumerated.py \
   --ignore=tests/bridge/core/laws/test_hostile_machine.py
 coverage: $(DEV) ## branch coverage of wire and bridge/core; fails under 100 % and names what is missing
 	@$(BIN)/python -m pytest -q tests/bridge/core tests/wire tests/bridge/test_link.py \

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from wire import RobotDescription
 
 ROOT = Path(__file__).parents[2]
 SITE = ROOT / "sites" / "two_room"
-LIMIT_S = 25.0
 
 
 class FakeClock:
@@ -41,16 +39,6 @@ def core_config(boot: str = "boot1", robot: RobotDescription | None = None) -> C
         map_id=fence.map_id,
         boot=boot,
     )
-
-
-def until(done: Callable[[], bool], limit_s: float = LIMIT_S) -> bool:
-    """Wait for what another thread or process does; say whether it did."""
-    end_s = time.monotonic() + limit_s
-    while time.monotonic() < end_s:
-        if done():
-            return True
-        time.sleep(0.005)
-    return done()
 
 
 def run_core(

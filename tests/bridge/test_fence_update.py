@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from dataclasses import replace
 from math import cos, sin, tau
 from pathlib import Path
@@ -11,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from bridge.core.inbox import FenceDone
 from bridge.core.state_orders import PendingFence
 from bridge.fence_file import load_fence
 from bridge.fence_update import LINGER_S, FenceDesk, Ground, put_in_force
+from tests.waiting import until
 from wire import Pose2, fingerprint
 
 MAP = "0" * 16
@@ -125,15 +124,6 @@ def test_a_disk_that_refuses_half_way_leaves_the_old_fence(
     assert [path.name for path in ground.site.iterdir()] == ["fence.json"]
 
 
-def answered(desk: FenceDesk) -> FenceDone:
-    end_s = time.monotonic() + 10.0
-    while time.monotonic() < end_s:
-        if (done := desk.take()) is not None:
-            return done
-        time.sleep(0.005)
-    raise AssertionError("no answer")
-
-
 def test_the_desk_serves_one_request_once_and_then_the_bridge_may_leave(ground: Ground) -> None:
     desk = FenceDesk(ground)
     request = asked(text())
@@ -141,7 +131,7 @@ def test_the_desk_serves_one_request_once_and_then_the_bridge_may_leave(ground: 
     assert desk.take() is None
     desk.note(request, 1.0)
     desk.note(request, 1.01)
-    done = answered(desk)
+    done = until(desk.take)
     assert (done.id, done.code) == ("f1", "ok")
     assert desk.take() is None
     assert not desk.is_over(50.0), "the core has not given its verdict yet"
@@ -154,9 +144,9 @@ def test_the_desk_serves_one_request_once_and_then_the_bridge_may_leave(ground: 
 def test_after_a_refusal_the_next_request_is_served(ground: Ground) -> None:
     desk = FenceDesk(ground)
     desk.note(asked("{}"), 1.0)
-    assert answered(desk).code == "fence_invalid"
+    assert until(desk.take).code == "fence_invalid"
     desk.note(None, 2.0)
     assert not desk.is_over(100.0)
     desk.note(asked(text()), 3.0)
-    assert answered(desk).code == "ok"
+    assert until(desk.take).code == "ok"
     assert desk.close()

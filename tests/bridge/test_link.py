@@ -17,7 +17,8 @@ import pytest
 from bridge.core import ON_TIME, ArrivedAt, Decision, Inbox, OperatorArrival, initial
 from bridge.core.inbox import FenceArrival
 from bridge.link import STOPS_KEPT, BridgeLink
-from tests.bridge.ground import core_config, until
+from tests.bridge.ground import core_config
+from tests.waiting import until
 from tests.wire.examples import EXAMPLES, STATUS
 from wire import (
     VIRTUAL_KEY,
@@ -125,7 +126,7 @@ def ends(home: Path) -> Iterator[Ends]:
     ):
         link = BridgeLink(bridge, "r1", VIRTUAL_KEY)
         ends = Ends(link, (operator, localization, button, robot))
-        assert until(lambda: bridge.peers() == len(ends.others))
+        until(lambda: bridge.peers() == len(ends.others))
         for other in ends.others:
             mouth = other.publisher(STOP)
 
@@ -133,7 +134,7 @@ def ends(home: Path) -> Iterator[Ends]:
                 mouth.put(Stop(id="hello", source="test"))
                 return bool(ends.drain().stops)
 
-            assert until(heard)
+            until(heard)
         yield ends
 
 
@@ -148,7 +149,7 @@ def gather(ends: Ends, key: Key[Any]) -> Inbox:
         kept.extend(ears.drain_bytes())
         return any(b'"last-word"' in payload for payload in kept)
 
-    assert until(passed)
+    until(passed)
     return ends.drain()
 
 
@@ -167,7 +168,7 @@ def test_every_key_is_heard(ends: Ends, key: Key[Record]) -> None:
         mouth.put(message)
         return handed_on in repr(ends.drain())
 
-    assert until(there)
+    until(there)
 
 
 def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends) -> None:
@@ -185,7 +186,7 @@ def test_a_fence_goes_on_with_its_text_only_where_the_proof_binds_it(ends: Ends)
             came.extend(fence for fence in ends.drain().fences if fence.id == request_id)
             return bool(came)
 
-        assert until(there)
+        until(there)
         return came[0]
 
     assert arrives("f1", "{} ") == FenceArrival("f1", "cli", "n", True, "{} ")
@@ -204,7 +205,7 @@ def test_marks_go_on_with_their_text_only_where_the_proof_binds_it(ends: Ends) -
         came.update({each.id: each for each in ends.drain().marks})
         return len(came) == 3
 
-    assert until(there)
+    until(there)
     assert came["m1"] == FenceArrival("m1", "cli", "n", True, "{} ")
     assert came["m2"] == FenceArrival("m2", "cli", "n", False, "")
     assert came["m3"] == FenceArrival("m3", "cli", None, False, "")
@@ -219,7 +220,7 @@ def test_hostile_bytes_become_a_rejection_or_a_stop_where_stops_are_said(
     for payload in HOSTILE:
         assert isinstance(decode(key, payload), DecodeFailure)
         mouth.put_bytes(payload)
-        assert until(partial(refused, ends, key))
+        until(partial(refused, ends, key))
 
 
 def refused(ends: Ends, key: Key[Any]) -> bool:
@@ -321,7 +322,7 @@ def test_an_operator_request_is_authentic_only_for_its_own_kind(
 
         mouth.put(request)
         found: list[OperatorArrival] = []
-        assert until(partial(collect, ends, found))
+        until(partial(collect, ends, found))
         assert found == [OperatorArrival(kind, request, authentic=name == "good")]
 
 
@@ -343,7 +344,7 @@ def test_a_decision_is_published(ends: Ends) -> None:
             got.extend(ears.drain().items)
         return all(message in got for message in (STATUS, *said))
 
-    assert until(all_heard)
+    until(all_heard)
     ends.link.publish(Decision(state, None, None, None, (), ()))  # silence is no message
 
 

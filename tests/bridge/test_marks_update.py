@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from bridge.core.geometry.fence import build_fence
 from bridge.core.inbox import FenceDone
 from bridge.core.state_orders import Marks, PendingMarks
 from bridge.marks_update import MarksDesk, Paper, load_marks, marks_path, prepare
+from tests.waiting import until
 from wire.errors import ConfigError
 
 MAP = "0123456789abcdef"
@@ -68,13 +68,6 @@ def test_marks_that_can_not_be_read_refuse_the_start(paper: Paper, content: byte
     paper.path.write_bytes(content)
     with pytest.raises(ConfigError, match="marks_invalid"):
         load_marks(paper.path, MAP)
-
-
-def until(there: Any) -> None:
-    end_s = time.monotonic() + 5.0
-    while not there():
-        assert time.monotonic() < end_s
-        time.sleep(0.005)
 
 
 def test_a_file_that_can_not_be_read_now_is_tried_again_and_a_home_that_is_none_has_no_marks(

@@ -18,7 +18,8 @@ from bridge.recording.mcap_reader import McapReader
 from bridge.replay import replay
 from bridge.warmup import warm_up
 from tests.bridge.fake_robot import FakeRobot
-from tests.bridge.ground import ROOT, SITE, until
+from tests.bridge.ground import ROOT, SITE
+from tests.waiting import until
 from wire import VIRTUAL_KEY, Mode, OpRequest, RobotDescription, Status, sign
 from wire.keys import ARM, STATUS, Party
 from wire.session import Subscriber, open_session
@@ -73,8 +74,8 @@ def test_a_life_from_self_test_to_halt(tmp_path: Path) -> None:
         open_session(Party.OPERATOR, "r1", tmp_path) as operator,
     ):
         watch = Watch(operator.subscriber(STATUS))
-        assert until(lambda: watch.sees(Mode.SELFTEST))
-        assert until(lambda: watch.sees(Mode.DISARMED)), watch.status and watch.status.waiting_for
+        until(lambda: watch.sees(Mode.SELFTEST))
+        until(lambda: watch.sees(Mode.DISARMED)), watch.status and watch.status.waiting_for
         assert robot.last is not None
         assert not robot.last.enable
 
@@ -82,10 +83,10 @@ def test_a_life_from_self_test_to_halt(tmp_path: Path) -> None:
         assert process.poll() is None
 
         arm(watch, operator.publisher(ARM).put)
-        assert until(lambda: robot.last is not None and robot.last.enable)
+        until(lambda: robot.last is not None and robot.last.enable)
         process.send_signal(signal.SIGTERM)
         assert process.wait(timeout=10) == 0
-        assert until(lambda: robot.last is not None and not robot.last.enable)
+        until(lambda: robot.last is not None and not robot.last.enable)
         last = robot.last
         assert (last.left_radps, last.right_radps) == (0.0, 0.0)
     (recording,) = (tmp_path / "recordings").iterdir()
@@ -108,7 +109,7 @@ def arm(watch: Watch, send: Callable[[OpRequest], None]) -> None:
             send(OpRequest(id=request_id, source="test", proof=proof))
         return False
 
-    assert until(held), watch.status
+    until(held), watch.status
 
 
 def whole(path: Path) -> bool:
@@ -118,7 +119,7 @@ def whole(path: Path) -> bool:
 
 def test_killed_it_leaves_a_recording_that_replays(tmp_path: Path) -> None:
     with FakeRobot(tmp_path) as robot, bridge(tmp_path) as process:
-        assert until(lambda: len(robot.heard) > 60)
+        until(lambda: len(robot.heard) > 60)
         process.kill()
         process.wait()
     folder = tmp_path / "recordings"
@@ -128,7 +129,7 @@ def test_killed_it_leaves_a_recording_that_replays(tmp_path: Path) -> None:
         closed = [path for path in folder.glob("*.mcap") if whole(path)]
         return bool(closed) and replay(closed).ticks > 40
 
-    assert until(written)
+    until(written)
     assert replay(folder.glob("*.mcap")).differing == 0
 
 

@@ -33,8 +33,7 @@ def kept(
 
 def test_a_silent_planner_is_told_as_the_row_with_its_evidence(tmp_path: Path) -> None:
     world = World(keep=True).driving((5.0, 0.0))
-    assert world.planner is not None
-    world.planner.silent = True
+    world.brain.silent = True
     world.run(3.0)
     stop = last_stop(kept(tmp_path, world).parent)
     assert stop is not None

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -12,6 +11,7 @@ from hypothesis import strategies as st
 
 from devices import can_line
 from devices.can_line import KEPT, UNSENT, CanFrame, CanLine, CanTrouble, pack, unpack
+from tests.waiting import until
 
 can: Any = pytest.importorskip("can", reason="python-can is not installed: make dev")
 LIMIT_S = 10.0
@@ -55,13 +55,6 @@ def line(channel: str, other: object) -> Iterator[CanLine]:
     until(lambda: made.opened == 1)
     yield made
     made.close()
-
-
-def until(done: Callable[[], object]) -> None:
-    end_s = time.monotonic() + LIMIT_S
-    while not done():
-        assert time.monotonic() < end_s
-        time.sleep(0.002)
 
 
 def test_a_frame_goes_out_and_one_comes_in(line: CanLine, other: Any) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from devices import LastingPort, PortTrouble, SerialPort
 from sim.twin.line import TwinLine
+from tests.waiting import until
 
 
 @pytest.fixture
@@ -18,15 +18,6 @@ def line(tmp_path: Path) -> Iterator[TwinLine]:
     made = TwinLine(tmp_path / "line")
     yield made
     made.close()
-
-
-def until(done: Callable[[], bool]) -> bool:
-    end_s = time.monotonic() + 20.0
-    while time.monotonic() < end_s:
-        if done():
-            return True
-        time.sleep(0.002)
-    return False
 
 
 def test_bytes_go_both_ways(line: TwinLine, tmp_path: Path) -> None:
@@ -46,8 +37,8 @@ def test_a_port_that_was_pulled_comes_back(line: TwinLine, tmp_path: Path) -> No
     try:
         line.hang_up()
         assert port.read() == b""
-        assert until(lambda: port.opened == 2)
-        assert until(lambda: port.write(b"x"))
+        until(lambda: port.opened == 2)
+        until(lambda: port.write(b"x"))
         assert line.read() == b"x"
     finally:
         port.close()
@@ -58,7 +49,7 @@ def test_a_write_notices_the_pulled_plug_too(line: TwinLine, tmp_path: Path) -> 
     try:
         line.hang_up()
         assert not port.write(b"x")
-        assert until(lambda: port.opened == 2)
+        until(lambda: port.opened == 2)
     finally:
         port.close()
 
@@ -73,8 +64,8 @@ def test_a_port_that_is_not_there_yet_is_waited_for(
         assert "port_missing" in caplog.text
         assert "/dev/serial/by-id" in caplog.text
         line = TwinLine(tmp_path / "line")
-        assert until(lambda: port.opened == 1)
-        assert until(lambda: "port_back" in caplog.text)
+        until(lambda: port.opened == 1)
+        until(lambda: "port_back" in caplog.text)
         line.close()
     finally:
         port.close()
@@ -115,7 +106,7 @@ def test_a_port_that_another_program_holds_is_waited_for_and_named(
         assert "port_busy" in caplog.text
         other.close()
         line.hang_up()
-        assert until(lambda: port.opened == 1)
+        until(lambda: port.opened == 1)
         assert port.trouble is None
     finally:
         other.close()
@@ -137,11 +128,11 @@ def test_a_port_that_returns_under_another_name_is_found_by_the_name_that_lasts(
         by_id.unlink()
         assert port.read() == b""
         assert not port.write(b"lost")
-        assert until(lambda: port.trouble is not None and port.trouble.code == "port_missing")
+        until(lambda: port.trouble is not None and port.trouble.code == "port_missing")
         second = TwinLine(tmp_path / "ttyUSB1")
         by_id.symlink_to((tmp_path / "ttyUSB1").resolve())
-        assert until(lambda: port.opened == 2)
-        assert until(lambda: port.write(b"x"))
+        until(lambda: port.opened == 2)
+        until(lambda: port.write(b"x"))
         assert second.read() == b"x", "nothing of before: it may be another device"
         assert guarded[0] == first_path
         assert guarded[-1] == (tmp_path / "ttyUSB1").resolve(), "judged anew before it is opened"

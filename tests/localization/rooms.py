@@ -13,9 +13,7 @@ from wire import STILL, Odometry, Pose2, Scan, Twist2
 RES_M = 0.05
 BEAMS = 180
 MAP_ID = "0123456789abcdef"
-
 Boxes = tuple[tuple[float, float, float, float], ...]
-
 ROOM: Boxes = (
     (0.0, 0.0, 6.0, 0.1), (0.0, 3.9, 6.0, 4.0), (0.0, 0.0, 0.1, 4.0), (5.9, 0.0, 6.0, 4.0),
     (1.0, 3.0, 2.2, 4.0), (4.6, 0.0, 6.0, 0.8),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import deepcopy
 from math import hypot, pi
+from typing import TypeVar
 
 import pytest
 
@@ -121,12 +123,29 @@ class Drive:
         return hypot(base.x_m - self.true.x_m, base.y_m - self.true.y_m)
 
 
-@pytest.fixture
-def drive() -> Drive:
-    drive = Drive()
+D = TypeVar("D", bound=Drive)
+
+
+def settle(drive: D) -> D:
     drive.run(0.5)
     assert drive.localizer.state is LocalizerState.TRACKING
     return drive
+
+
+def fork(drive: D, *shared: object) -> D:
+    """Return a drive of one's own that goes on from here; map and search are shared."""
+    return deepcopy(drive, {id(one): one for one in (FIELD, SEARCH, *shared)})
+
+
+@pytest.fixture(scope="session")
+def settled_drive() -> Drive:
+    """Return a drive that has found itself: that search is most of many a test. Fork it."""
+    return settle(Drive())
+
+
+@pytest.fixture
+def drive(settled_drive: Drive) -> Drive:
+    return fork(settled_drive)
 
 
 def test_it_finds_itself_at_start_and_says_nothing_before() -> None:

@@ -10,11 +10,18 @@ from localization.localizer import DOUBT_SEARCH_PAUSE_S, Localizer, LocalizerSta
 from localization.quality import ENOUGH_SCORE, KEPT_SCORE
 from localization.relocation import PlacedBase, SearchRequest, is_elsewhere, known_place
 from tests.localization.rooms import MAP_ID, TWINS, Boxes, field_of
-from tests.localization.test_localizer import ELSEWHERE, START, Drive, drive, hint
+from tests.localization.test_localizer import (
+    ELSEWHERE,
+    START,
+    Drive,
+    drive,
+    hint,
+    settled_drive,
+)
 from wire import IDENTITY, Pose2
 from wire.lidar_config import LidarConfig
 
-__all__ = ["drive"]
+__all__ = ["drive", "settled_drive"]
 UNDER_A_COAT = tuple(
     (START.x_m + x0, START.y_m + y0, START.x_m + x1, START.y_m + y1)
     for x0, y0, x1, y1 in (

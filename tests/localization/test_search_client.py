@@ -15,6 +15,7 @@ from localization.relocation import SearchRequest
 from localization.search_client import SearchClient, SearchFailure
 from planner.language.catalogue import say
 from sim import SimRobot
+from tests.waiting import until
 from wire import IDENTITY, STILL, Odometry
 from wire.lidar_config import LidarConfig
 
@@ -82,10 +83,7 @@ def test_it_says_why_it_finds_nothing_until_it_finds_again(
         process.kill()
     psutil.wait_procs(searching, timeout=LIMIT_S)
     client.ask(SearchRequest.of_hint(asked + 1, points_m, None))
-    end_s = time.monotonic() + LIMIT_S
-    while client.trouble is None:
-        assert time.monotonic() < end_s
-        time.sleep(0.005)
+    until(lambda: client.trouble, LIMIT_S)
     assert client.trouble in {"search_unavailable", "search_died"}
     ask_until_answered(client, points_m, asked + 2)
     assert client.trouble is None

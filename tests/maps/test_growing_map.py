@@ -23,9 +23,8 @@ SIZES = st.integers(1, 12)
 @st.composite
 def grids(draw: st.DrawFn) -> GridMap:
     width, height = draw(SIZES), draw(SIZES)
-    cells = bytes(
-        draw(st.lists(st.integers(0, 2), min_size=width * height, max_size=width * height))
-    )
+    drawn = draw(st.binary(min_size=width * height, max_size=width * height))
+    cells = bytes(value % 3 for value in drawn)
     left, low = draw(st.integers(-12, 12)), draw(st.integers(-12, 12))
     return GridMap(width, height, 0.05, 0.05 * left, 0.05 * low, cells)
 

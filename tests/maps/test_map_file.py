@@ -59,11 +59,6 @@ def test_beyond_the_edge_nothing_is_known(tmp_path: Path) -> None:
     assert grid.at(0.0, 3.01) == UNKNOWN
 
 
-def test_negate_turns_black_and_white_round(tmp_path: Path) -> None:
-    grid = load_map(write(tmp_path, {"negate": 1})).grid
-    assert list(grid.cells[:3]) == [OCCUPIED, OCCUPIED, FREE]
-
-
 @pytest.mark.parametrize("mode", ["trinary", "scale"])
 @pytest.mark.parametrize("negate", [0, 1])
 def test_no_threshold_frees_the_grey_that_map_savers_write_for_unknown(
@@ -94,7 +89,7 @@ def test_the_grey_that_jpeg_makes_of_unknown_is_not_floor_either(
     assert list(freed.grid.cells).count(UNKNOWN) == (0 if free_thresh == 0.25 else 4)
 
 
-@pytest.mark.parametrize("quality", [10, 20, 30, 50, 75, 95])
+@pytest.mark.parametrize("quality", [10, 30, 95])
 def test_a_map_that_was_a_jpeg_frees_nothing_that_was_unknown(tmp_path: Path, quality: int) -> None:
     clean = np.full((64, 64), 254, np.uint8)
     clean[:, :40], clean[:, 40:44] = 205, 0
@@ -157,7 +152,7 @@ def test_a_quarter_turn_is_exact(tmp_path: Path) -> None:
             assert turned.at(-y_m, x_m) == plain.at(x_m, y_m)
 
 
-@pytest.mark.parametrize("yaw_rad", [0.01, 0.4, np.pi / 4, 1.0, 2.5, -3.0, 7.0])
+@pytest.mark.parametrize("yaw_rad", [0.01, np.pi / 4, 2.5, -3.0, 7.0])
 def test_a_turned_map_keeps_its_walls_whole_and_frees_nothing(
     tmp_path: Path, yaw_rad: float
 ) -> None:
@@ -327,20 +322,15 @@ def test_yaml_makes_no_objects(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("image", "code"),
     [
-        (b"", "map_image_malformed"),
         (b"GIF89a", "map_image_malformed"),
         (b"P5 3 2 255\n" + PIXELS[:-1], "map_image_malformed"),
         (b"P5 3 2 65535\n" + PIXELS, "map_image_malformed"),
         (b"P5 3 2 300\n" + PIXELS * 2, "map_image_malformed"),
         (b"P5 3 2 65536\n" + PIXELS * 2, "map_image_malformed"),
-        (b"P2 3 2 255\n0 1 2 3 4 256", "map_image_malformed"),
-        (b"P2 3 2 255\n0 1 2 3 4 -1", "map_image_malformed"),
         (b"P2 3 2 255\n0 1 2 3 4", "map_image_malformed"),
         (b"P5 20000 20000 255\n", "map_image_too_large"),
         (b"P5 3 2 0\n" + PIXELS, "map_image_malformed"),
-        (b"P2 3 2 255\n0 1 2 3 4 x", "map_image_malformed"),
         (b"P5 3 2 100\n" + PIXELS, "map_image_malformed"),
-        (b"P5 0 2 255\n", "map_image_malformed"),
         (b"P5 99999 99999 255\n" + PIXELS, "map_image_too_large"),
         (b"P5 " + b"9" * 5000 + b" 2 255\n" + PIXELS, "map_image_malformed"),
         (b"\x89PNG\r\n\x1a\n" + b"\0\0\0\rIHDR" + b"\0\0\0\1" * 2, "map_image_malformed"),
@@ -437,13 +427,6 @@ def test_a_png_whose_header_lies_is_refused(tmp_path: Path, size: tuple[int, int
     assert refusal(write(tmp_path, {}, image)).code == "map_image_malformed"
 
 
-@pytest.mark.parametrize("flaw", [b"P5 3 2 255\n", b"P2 3 2 255\n"])
-def test_a_map_of_one_kind_loads(tmp_path: Path, flaw: bytes) -> None:
-    for grey, kind in ((0, OCCUPIED), (205, UNKNOWN), (254, FREE)):
-        body = bytes([grey]) * 6 if flaw[:2] == b"P5" else b" ".join([str(grey).encode()] * 6)
-        assert set(load_map(write(tmp_path, {}, flaw + body)).grid.cells) == {kind}
-
-
 @pytest.mark.parametrize(
     "line",
     ["image: a#b.pgm", 'image: "map\\x2epgm"', "image: >\n  map.pgm", "image: map.pgm x\n  y"],
@@ -478,8 +461,3 @@ def test_the_names_of_our_own_maps_stay(repository: Path, site: str, name: str) 
 
 def test_a_missing_map_yaml_is_named(tmp_path: Path) -> None:
     assert refusal(tmp_path / "map.yaml").code == "site_file_missing"
-
-
-def test_a_missing_picture_names_what_is_there(tmp_path: Path) -> None:
-    error = refusal(write(tmp_path, {"image": "nowhere.pgm"}))
-    assert "map.pgm" in error.message["en"]

@@ -19,7 +19,6 @@ from wire.keys import KEYS, Party
 
 LIMIT_S = 30.0
 Pair = tuple[Party, str, str]  # hearer, key, sender
-
 EXPECTED: set[Pair] = {
     (hearer, key.path, sender.value)
     for key in KEYS

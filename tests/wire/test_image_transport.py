@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tests.waiting import until
 from tests.wire.examples import EXAMPLES
-from tests.wire.test_session import until
 from wire import DecodeFailure, Image, ImageHeader
 from wire.keys import CAMERA_COLOR, Party
 from wire.session import open_session
@@ -26,7 +26,7 @@ def test_the_newest_picture_comes_whole_with_its_header(tmp_path: Path) -> None:
             seen.append(ears.newest())
             return seen[-1] is not None
 
-        assert until(heard)
+        until(heard)
         assert seen[-1] == Image(header, b"picture" * 1000)
 
 
@@ -36,11 +36,11 @@ def test_a_picture_is_wanted_while_somebody_listens(tmp_path: Path) -> None:
         assert not mouth.has_listener
         with open_session(Party.PLANNER, "r1", tmp_path) as planner:
             ears = planner.image_subscriber(CAMERA_COLOR)
-            assert until(lambda: mouth.has_listener)
+            until(lambda: mouth.has_listener)
             assert ears.newest() is None
             ears.close()
-            assert until(lambda: not mouth.has_listener)
+            until(lambda: not mouth.has_listener)
             again = planner.image_subscriber(CAMERA_COLOR)
-            assert until(lambda: mouth.has_listener)
+            until(lambda: mouth.has_listener)
             assert again.newest() is None
-        assert until(lambda: not mouth.has_listener)
+        until(lambda: not mouth.has_listener)

@@ -30,7 +30,6 @@ from wire.sockets import (
 
 BRIDGE, SIM, OPERATOR = 61_001, 61_003, 61_004
 """Users of nobody's."""
-
 HOLDER = """
 import sys, time
 from pathlib import Path

@@ -18,12 +18,9 @@ STORIES = frozenset(
     """.split()  # noqa: SIM905  # one name a word reads better
 )
 """Files whose tests drive for seconds of the world's time."""
-NUMBERS = frozenset({"test_edges", "test_numbers"})
-"""Laws that need no drive."""
 LONG = (
     "fed_forward_once",
     "hand_on_the_stick_crosses",
-    "fence_slows_whoever",
     "equal_scans",
     "blocked_way_is_forgotten",
     "fence_counts_what_was_learnt",
@@ -53,5 +50,5 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _quick(test_file: Path) -> bool:
-    long_laws = test_file.parent.name == "laws" and test_file.stem not in NUMBERS
+    long_laws = test_file.parent.name == "laws" and test_file.stem != "test_numbers"
     return not long_laws and test_file.stem not in STORIES

@@ -31,8 +31,7 @@ def external_world() -> World:
 def say(
     world: World, v_mps: float, w_radps: float = 0.0, *, held: bool = True, seq: int | None = None
 ) -> None:
-    status = world.status
-    assert status is not None
+    status = world.shown
     world.ids += 1
     velocity = Velocity(
         source_id="x1",

@@ -20,14 +20,8 @@ from wire import (
 )
 
 BOOT = "b0"
-
-
 MAP_ID = "a" * 16
-
-
 FENCE_HASH = "f" * 16
-
-
 PERIOD_S = 0.01
 
 

@@ -35,8 +35,7 @@ def hold() -> World:
 
 def hold_granted() -> World:
     world = reached("disarmed").arm()
-    assert world.planner is not None
-    world.planner.mission = "m1"
+    world.brain.mission = "m1"
     world.run(0.5)
     return world
 
@@ -47,8 +46,7 @@ def active() -> World:
 
 def turning() -> World:
     world = reached("disarmed").arm()
-    assert world.planner is not None
-    world.planner.mission, world.planner.goal_m = "m1", (-4.0, 0.0)
+    world.brain.mission, world.brain.goal_m = "m1", (-4.0, 0.0)
     world.until(Mode.ACTIVE)
     world.run(0.6)
     return world
@@ -164,3 +162,8 @@ def reached(name: str) -> World:
 def tick_of(world: World) -> TickContext:
     """Return the next tick of a world, in which nothing has come."""
     return TickContext(world.core, draft(world.state), Inbox(), world.now_s, PERIOD_S)
+
+
+def at(start: str = "active") -> TickContext:
+    """Return the next tick of a world that reached a mode."""
+    return tick_of(reached(start))

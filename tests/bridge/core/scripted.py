@@ -32,6 +32,7 @@ from tests.bridge.core.fake_planner import (
 from tests.bridge.core.room import BEAMS, ranges_m
 from wire import (
     IDENTITY,
+    DriveCommand,
     DriveState,
     Event,
     Imu,
@@ -135,6 +136,31 @@ class World:
     def is_in(self, mode: Mode) -> bool:
         """Tell the mode now; a question, so that no type checker remembers its answer."""
         return self.state.mode is mode
+
+    @property
+    def brain(self) -> FakePlanner:
+        """Return the planner of a world that has one."""
+        assert self.planner is not None
+        return self.planner
+
+    @property
+    def shown(self) -> Status:
+        """Return the newest status."""
+        assert self.status is not None
+        return self.status
+
+    @property
+    def told(self) -> DriveCommand:
+        """Return the command of the newest tick, where one was given."""
+        assert self.last is not None
+        assert self.last.command is not None
+        return self.last.command
+
+    def asked(self, kind: OpKind, *, authentic: bool = True, nonce: str | None = None) -> str:
+        """Put an operator's request, take the tick and return its verdict."""
+        request_id = self.op(kind, authentic=authentic, nonce=nonce)
+        self.tick()
+        return self.verdict(request_id)
 
     @property
     def sent(self) -> Twist2:

@@ -42,12 +42,11 @@ def test_a_tick_is_counted_dated_and_metered() -> None:
 
 def test_before_it_listens_a_tick_lets_go_what_is_over() -> None:
     world = reached("active")
-    assert world.planner is not None
     state = world.state
     state.bad_bucket = 3.0
     state.operator = replace(state.operator, nonce_made_s=world.now_s - 60.0)
     state.ownership = replace(state.ownership, echo_s=world.now_s - 0.35)
-    world.planner.silent = True
+    world.brain.silent = True
     nonce, epoch = state.operator.nonce_no, state.epoch_no
     world.tick()
     assert world.state.bad_bucket == pytest.approx(3.0 - PERIOD_S / 0.5)
@@ -70,8 +69,7 @@ def test_a_stop_voids_all_that_came_with_it_but_not_where_the_robot_is() -> None
     recorded = World(keep=True).driving()
     inbox = everything(recorded)
     world = reached("active")
-    assert world.planner is not None
-    world.planner.silent = True
+    world.brain.silent = True
     world.teleop(0.2, held=True)
     stick = world.extra.teleop
     world.extra = replace(inbox, teleop=stick, external=stick)
@@ -85,10 +83,7 @@ def test_a_stop_voids_all_that_came_with_it_but_not_where_the_robot_is() -> None
 
 def test_a_blocked_way_is_judged_on_what_would_be_asked_and_nothing_is_followed() -> None:
     world = reached("hold_granted")
-    other = reached("active")
-    assert world.planner is not None
-    assert other.planner is not None
-    world.planner.goal_m, world.planner.next_horizon_s = (5.0, 0.0), 0.0
+    world.brain.goal_m, world.brain.next_horizon_s = (5.0, 0.0), 0.0
     world.state.gate = Gate(blocked=True)
     kept = world.state.motion.follow
     judged = []
@@ -106,9 +101,8 @@ def test_a_blocked_way_is_judged_on_what_would_be_asked_and_nothing_is_followed(
 
 def test_who_has_arrived_leaves_active_in_the_same_tick() -> None:
     world = reached("active")
-    assert world.planner is not None
-    world.planner.goal_m = None
-    world.planner.next_horizon_s = 0.0
+    world.brain.goal_m = None
+    world.brain.next_horizon_s = 0.0
     world.until(Mode.HOLD, 3.0)
     assert world.state.source == ""
     assert world.here != IDENTITY
@@ -117,8 +111,7 @@ def test_who_has_arrived_leaves_active_in_the_same_tick() -> None:
 @pytest.mark.parametrize("granted", [True, False])
 def test_a_blocked_way_is_forgotten_once_nothing_is_granted(*, granted: bool) -> None:
     world = reached("hold_granted" if granted else "hold")
-    assert world.planner is not None
-    world.planner.goal_m = None
+    world.brain.goal_m = None
     world.state.gate = Gate(blocked=True)
     world.tick()
     assert world.state.gate.blocked is granted
@@ -127,12 +120,11 @@ def test_a_blocked_way_is_forgotten_once_nothing_is_granted(*, granted: bool) ->
 
 def test_a_new_leg_is_followed_from_its_beginning() -> None:
     world = reached("active")
-    assert world.planner is not None
     learnt = world.state.motion.follow
     state = world.state
     state.leg = replace(state.leg, mission="m0")  # what was followed was another mission's
     state.motion.follow = replace(learnt, tries=9)
-    world.planner.next_horizon_s = 0.0
+    world.brain.next_horizon_s = 0.0
     for _ in range(100):
         world.tick()
         if world.state.leg.mission == "m1":

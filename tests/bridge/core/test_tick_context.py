@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from bridge.core.reporting.report import status_of
 from bridge.core.tick_context import TickContext, append_sent, fill, sensor_age_s, sent_at
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.table import table
 
 
@@ -50,15 +50,6 @@ def test_no_stamp_makes_a_reading_younger(
     assert sensor_age_s(now_s, received_s, stamp_s, same_host=same_host) >= now_s - received_s
 
 
-def test_256_statuses_are_remembered_and_no_more() -> None:
-    ring: tuple[float, ...] = ()
-    for seq in range(1, 301):
-        ring = append_sent(ring, float(seq))
-    assert ring == tuple(float(seq) for seq in range(45, 301))
-    known = {seen: sent_at(ring, 300, seen) for seen in (44, 45, 300, 301)}
-    assert known == {44: None, 45: 45.0, 300: 300.0, 301: None}
-
-
 @table(
     ("stamp_s", "same_host", "age_s"),
     [(8.0, True, 2.0), (9.0, True, 1.0), (9.5, True, 1.0), (8.0, False, 1.0), (9.5, False, 1.0)],
@@ -85,7 +76,7 @@ def test_a_reading_is_as_old_as_the_older_of_its_two_times(
 def test_a_robot_stands_while_its_drive_says_so(
     still_s: float | None, heard_s: float | None, seconds: float, still: bool
 ) -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.now_s = 4.0
     tick.s.drive.still_since_s = None if still_s is None else tick.now_s - still_s
     tick.s.drive.received_s = None if heard_s is None else tick.now_s - heard_s
@@ -93,7 +84,7 @@ def test_a_robot_stands_while_its_drive_says_so(
 
 
 def test_what_is_dropped_is_counted_once_and_its_reason_kept() -> None:
-    tick: TickContext = tick_of(reached("active"))
+    tick: TickContext = at()
     before = tick.s.voice
     tick.drop("repeated")
     assert (tick.dropped, tick.reasons, tick.s.voice) == (1, ["repeated"], before)

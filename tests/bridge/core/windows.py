@@ -7,7 +7,7 @@ from dataclasses import replace
 from bridge.core import RejectedAt
 from tests.bridge.core.fake_planner import PERIOD_S
 from tests.bridge.core.scripted import World
-from wire import DecodeFailure, Status
+from wire import DecodeFailure
 
 
 def silent_for(world: World, ticks: int) -> None:
@@ -39,9 +39,3 @@ def bad_bytes(world: World, count: int, key: str = "cmd/waypoints") -> None:
 def dropped(world: World, code: str) -> bool:
     """Take a tick and tell whether it dropped something for this reason."""
     return code in world.tick().reasons
-
-
-def shown(world: World) -> Status:
-    """Return the newest status."""
-    assert world.status is not None
-    return world.status

@@ -14,7 +14,7 @@ from devices import LastingPort
 from devices.pons_mcu import McuCommand, McuReader
 from sim.twin import DriveTwin
 from sim.twin.line import TwinLine
-from tests.bridge.ground import until
+from tests.waiting import until
 from tests.wire.examples import EXAMPLES
 from wire import ConfigError, DriveCommand, DriveState, RobotDescription
 from wire.drive_config import DriveConfig
@@ -91,7 +91,7 @@ def test_halt_sends_zero_without_torque_and_numbers_that_rise(
         frames.extend(f for f in reader.read(twin.line.read()) if isinstance(f, McuCommand))
         return len(frames) >= 6
 
-    assert until(are_all_here)
+    until(are_all_here)
     assert [frame.seq for frame in frames] == [40, 41, 42, 43, 44, 45]
     assert {(f.left_mradps, f.right_mradps, f.flags) for f in frames[1:]} == {(0, 0, 0)}
     assert twin.command(1.0).enable is False
@@ -120,9 +120,9 @@ def test_a_line_that_hangs_up_is_silence_and_then_goes_on(
         drive.write(command(1.0, 1.0, seq=9))
         return twin.command(5.0).left_radps == 1.0
 
-    assert until(obeys)
+    until(obeys)
     twin.report(BODY, 5.0)
-    assert until(lambda: len(drive.read()) == 1)
+    until(lambda: len(drive.read()) == 1)
 
 
 def test_nobody_at_the_other_end_reads_and_nothing_waits(drive: SerialDrive) -> None:

@@ -9,7 +9,7 @@ from typing import NoReturn
 import pytest
 
 from bridge.drive import Drive, SimDrive
-from tests.bridge.ground import until
+from tests.waiting import until
 from tests.wire.examples import EXAMPLES
 from wire import ConfigError, DriveCommand, DriveState
 from wire.keys import DRIVE_COMMAND, DRIVE_STATE, Party
@@ -31,7 +31,7 @@ def bridge(tmp_path: Path) -> Iterator[Session]:
 @pytest.fixture
 def robot(bridge: Session, tmp_path: Path) -> Iterator[Session]:
     with open_session(Party.ROBOT, "r1", tmp_path) as session:
-        assert until(lambda: bridge.peers() == 1)
+        until(lambda: bridge.peers() == 1)
         yield session
 
 
@@ -48,7 +48,7 @@ def next_command(drive: Drive, ears: Subscriber[DriveCommand], sent: DriveComman
         got.extend(item for item in items if item.seq == sent.seq)
         return bool(got)
 
-    assert until(heard)
+    until(heard)
     return got[-1]
 
 
@@ -72,7 +72,7 @@ def test_readings_come_in_order(bridge: Session, robot: Session) -> None:
         got.extend(drive.read())
         return len(got) >= 6
 
-    assert until(heard)
+    until(heard)
     assert {type(item) for item in got} == {DriveState}
     assert drive.read() == () or until(lambda: drive.read() == ())
 
@@ -82,7 +82,7 @@ def test_none_sends_nothing_and_halt_sends_zero_without_torque(
 ) -> None:
     drive, ears = drive_of(bridge), robot.subscriber(DRIVE_COMMAND)
     last = next_command(drive, ears, command(2.0, 2.0, seq=40))
-    assert until(lambda: not ears.drain().arrived)
+    until(lambda: not ears.drain().arrived)
     drive.write(None)
     drive.halt()
     got: list[DriveCommand] = []
@@ -91,7 +91,7 @@ def test_none_sends_nothing_and_halt_sends_zero_without_torque(
         got.extend(item for item in ears.drain().items if isinstance(item, DriveCommand))
         return bool(got)
 
-    assert until(heard)
+    until(heard)
     assert all((c.left_radps, c.right_radps, c.enable) == (0.0, 0.0, False) for c in got)
     assert got[0].seq > last.seq
     assert got[0].boot == "b1"

@@ -28,8 +28,9 @@ from bridge.recording.recording_reader import (
 )
 from bridge.recording.writer_process import Sizes, WriterProcess
 from bridge.replay import replay
-from tests.bridge.ground import ROOT, core_config, run_core, until
+from tests.bridge.ground import ROOT, core_config, run_core
 from tests.processes.nice_values import leads_its_session, stand_of
+from tests.waiting import until
 from tests.wire.examples import EXAMPLES
 from wire import Scan, Stop
 
@@ -185,7 +186,7 @@ def test_a_frozen_writer_costs_counted_ticks_and_the_record_goes_on(
     recorder = make(pipe_bytes=65_536)
     driver = Driver(recorder)
     assert driver.until(lambda: not recorder.trouble)
-    assert until(lambda: recorder._pipe.waiting_bytes() == 0), "a busy writer is behind"
+    until(lambda: recorder._pipe.waiting_bytes() == 0)  # a busy writer is behind
     os.kill(pid_of(recorder), signal.SIGSTOP)
     driver.turn(400)
     lost = recorder.gaps
@@ -301,7 +302,7 @@ def test_a_killed_bridge_leaves_everything_it_handed_over(tmp_path: Path) -> Non
         except BadRecording:
             return False
 
-    assert until(whole)
+    until(whole)
 
 
 ALL_KILLED = """

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from functools import lru_cache
 from pathlib import Path
 
 import pytest
@@ -31,6 +32,7 @@ def short_rounds(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(thinning, "ROUND_NS", 4 * SECOND_NS)
 
 
+@lru_cache
 def drive(*, stops: bool = True, stands_s: float = 0.0) -> World:
     """Stand for a while, drive for some seconds, with a stop at their end or without, and stand."""
     world = World(keep=True)
@@ -108,7 +110,7 @@ def test_an_incident_just_after_its_end_keeps_the_end_of_the_file_before(tmp_pat
 
 
 def test_a_recording_that_a_power_loss_cut_is_thinned_and_read(tmp_path: Path) -> None:
-    cut = record(tmp_path, drive(stands_s=5.0), closed=False)
+    cut = record(tmp_path, drive(stands_s=8.0), closed=False)
     with cut.open("r+b") as file:
         file.truncate(cut.stat().st_size - 100)
     kept = rewrite(cut, Stage.KEPT, [])

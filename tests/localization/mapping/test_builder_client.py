@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import psutil
@@ -21,11 +20,11 @@ from maps.growing_map import read_growing_map
 from tests.localization.mapping.test_map_builder import course
 from tests.localization.mapping.test_map_builder import drive as drive_round
 from tests.localization.rooms import ROOM, cast, points_of
+from tests.waiting import until
 from wire import Pose2, RobotDescription
 
 pytestmark = pytest.mark.e2e
 LIDAR = RobotDescription().lidar.model_copy(update={"x_m": 0.0, "y_m": 0.0})
-LIMIT_S = 30.0
 
 
 class Kept(MapBuilder):
@@ -53,13 +52,6 @@ def client(tmp_path: Path) -> Iterator[BuilderClient]:
     made.start()
     yield made
     made.close()
-
-
-def until(done: Callable[[], bool]) -> None:
-    end_s = time.monotonic() + LIMIT_S
-    while not done():
-        assert time.monotonic() < end_s, "too late"
-        time.sleep(0.02)
 
 
 def kept_in(folder: Path) -> int:

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
 from sensors.camera.grabber import CameraGrabber
 from sensors.camera.shot import CameraShot, CameraTrouble
-
-LIMIT_S = 10.0
+from tests.waiting import until
 
 
 class Plugged:
@@ -61,13 +59,6 @@ def camera(plugged: Plugged) -> Iterator[CameraGrabber]:
     plugged.given = -1_000_000
     made.close()
     assert plugged.open == 0, "it is given back"
-
-
-def until(done: Callable[[], bool]) -> None:
-    end_s = time.monotonic() + LIMIT_S
-    while not done():
-        assert time.monotonic() < end_s
-        time.sleep(0.002)
 
 
 def test_only_the_newest_is_kept_and_counts_once(plugged: Plugged, camera: CameraGrabber) -> None:

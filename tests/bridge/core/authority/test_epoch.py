@@ -11,7 +11,7 @@ from bridge.core.authority.epoch import new_epoch
 from bridge.core.authority.requests import refuse_openly
 from bridge.core.state_orders import Ownership, Stick
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
 from wire import PROTOCOL, HeldReason, Hello, Owner, StandingHold
@@ -19,7 +19,7 @@ from wire import PROTOCOL, HeldReason, Hello, Owner, StandingHold
 
 @table(("start", "keep_stick"), [("active", False), ("active_external", True), ("teleop", True)])
 def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: bool) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     s = tick.s
     s.ownership = replace(s.ownership, waypoints_seq=7, external_seq=8)
     s.leg = replace(reached("active").state.leg, refusal="fence")
@@ -35,10 +35,6 @@ def test_nothing_meant_for_the_old_epoch_outlives_it(start: str, keep_stick: boo
     assert s.stick == (replace(stick, seq=-1) if keep_stick else Stick())
     assert s.grants.mission is None
     assert tick.events == [("epoch", "test")]
-
-
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
 
 
 def hello(tick: TickContext, **more: object) -> Hello:
@@ -121,18 +117,16 @@ def test_what_differs_is_named_with_both_values_and_a_remedy(
     field: str, came: object, code: str, to_do: str
 ) -> None:
     world = World()
-    assert world.planner is not None
-    plain = world.planner.hello
+    plain = world.brain.hello
 
     def changed(status: object) -> Hello:
         return plain(status).model_copy(update={field: came})  # type: ignore[arg-type]
 
-    world.planner.hello = changed  # type: ignore[method-assign]
+    world.brain.hello = changed  # type: ignore[method-assign]
     world.ready()
     world.run(0.5)
     assert world.state.ownership.owner is None
-    assert world.status is not None
-    (answer,) = [item for item in world.status.answers if item.kind == "hello"]
+    (answer,) = [item for item in world.shown.answers if item.kind == "hello"]
     assert (answer.accepted, answer.code) == (False, code)
     assert f"came {came}, expected " in answer.detail
     assert to_do in answer.detail

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
+from bridge.core.authority import external_velocity
 from bridge.core.geometry.fence import build_fence
+from bridge.core.state_orders import External
 from tests.bridge.core.external_brain import drive_for, external_world, say
 from tests.bridge.core.fake_planner import MAP_ID
+from tests.bridge.core.reached import at
 from tests.bridge.core.scripted import World
-from wire import Action, Mode
+from tests.bridge.core.table import table
+from wire import STILL, Action, Mode, Owner, Twist2, Velocity
 
 
 def test_it_drives_within_limits_and_stands_when_it_lets_go() -> None:
@@ -52,8 +57,7 @@ def test_going_backwards_in_number_is_scored() -> None:
 def test_a_planners_waypoints_are_not_its_to_send() -> None:
     world = external_world()
     drive_for(world, 0.5)
-    assert world.planner is not None
-    world.planner.next_horizon_s, world.planner.goal_m = 0.0, (4.0, 0.0)
+    world.brain.next_horizon_s, world.brain.goal_m = 0.0, (4.0, 0.0)
     world.tick()
     assert world.last is not None
     assert "no_grant" in world.last.reasons
@@ -104,7 +108,12 @@ def test_with_no_fence_to_keep_it_needs_a_pose_all_the_same() -> None:
 
 
 def blocked_world(by: str = "obstacle") -> World:
-    """Let an external brain push at something until the bridge calls its way blocked."""
+    """Return a world of one's own in which another brain's way is called blocked."""
+    return _blocked_world(by).fork()
+
+
+@cache
+def _blocked_world(by: str) -> World:
     world = fenced_world() if by == "fence" else external_world()
     if by == "obstacle":
         world.obstacle_m = (1.5, 0.0, 0.3)
@@ -167,3 +176,50 @@ def test_blocked_it_stays_so_on_what_is_old_or_let_go_of(held: bool) -> None:
         world.run(0.05)
     assert world.state.gate.blocked
     assert world.is_in(Mode.HOLD)
+
+
+def test_another_brain_is_followed_as_its_hand_says() -> None:
+    for held, asked in ((True, Twist2(0.2, 0.1)), (False, STILL)):
+        tick = at("active_external")
+        tick.s.bad_bucket = 3.0
+        last = tick.s.ownership.external_seq
+        assert last is not None
+        said = Velocity(source_id="x1", epoch=tick.epoch, seq=last + 1, dead_man=held,
+                        seen=tick.s.voice.status_seq, v_mps=0.2, w_radps=0.1)  # fmt: skip
+        external_velocity.hear_external(tick, said)
+        sent_s = tick.s.voice.ring[-1]
+        assert tick.s.external == External(asked.v_mps, asked.w_radps, held, sent_s)
+        assert (tick.s.ownership.external_seq, tick.s.bad_bucket) == (last + 1, 2.0)
+        assert external_velocity.requested_twist(tick) == asked
+        for age_s, calls in ((0.25, held), (0.2501, False)):
+            tick.s.external = replace(tick.s.external, sent_s=0.0)
+            tick.now_s = age_s
+            assert external_velocity.asks_to_move(tick) is calls
+        tick.s.external = None
+        assert external_velocity.requested_twist(tick) == STILL
+        assert not external_velocity.asks_to_move(tick)
+
+
+@table(
+    ("change", "code", "score"),
+    [("mission", "no_grant", 3.0), ("kind", "no_grant", 3.0), ("back", "seq_backwards", 4.0),
+     ("again", "repeated", 3.0)],
+)  # fmt: skip
+def test_another_brain_is_not_followed_without_its_rights(
+    change: str, code: str, score: float
+) -> None:
+    tick = at("active_external")
+    tick.s.bad_bucket = 3.0
+    before, last = tick.s.external, tick.s.ownership.external_seq
+    assert last is not None
+    if change == "mission":
+        tick.s.grants = replace(tick.s.grants, mission=None)
+    elif change == "kind":
+        owner = Owner(planner_id="x1", kind="planner")
+        tick.s.ownership = replace(tick.s.ownership, owner=owner)
+    seq = {"back": last - 1, "again": last}.get(change, last + 1)
+    said = Velocity(source_id="x1", epoch=tick.epoch, seq=seq, dead_man=True,
+                    seen=tick.s.voice.status_seq, v_mps=0.2, w_radps=0.1)  # fmt: skip
+    external_velocity.hear_external(tick, said)
+    assert (tick.reasons, tick.s.bad_bucket) == ([code], score)
+    assert tick.s.external == before

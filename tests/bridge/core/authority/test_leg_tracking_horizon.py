@@ -16,8 +16,6 @@ from wire import Pose2, Waypoint
 FENCE = build_fence(
     "0" * 16, (((-9, -9), (9, -9), (9, 9), (-9, 9)),), (((5, -1), (6, -1), (6, 1), (5, 1)),)
 )
-
-
 HERE = Pose2(0.0, 0.0, 0.0)
 
 

@@ -32,7 +32,7 @@ def send(
     nonce: str | None = None,
 ) -> None:  # fmt: skip
     """Put a request in the next tick, as the link hands it over."""
-    shown = world.status.nonce if world.status is not None else "none"
+    shown = world.shown.nonce if world.status is not None else "none"
     used = shown if nonce is None else nonce
     arrived = FenceArrival(request_id, "cli", used, authentic, text if authentic else "")
     world.extra = replace(world.extra, marks=(*world.extra.marks, arrived))
@@ -63,8 +63,7 @@ def test_proven_marks_count_in_any_mode_from_the_tick_that_says_so(state: str) -
     marks = world.state.marks
     assert (marks.text, marks.asked) == (FAR, None)
     world.run(0.1)
-    assert world.status is not None
-    assert world.status.marks_hash == fingerprint(FAR.encode())
+    assert world.shown.marks_hash == fingerprint(FAR.encode())
     assert [e.code for e in world.events if e.code.startswith("marks_")] == [
         "marks_asked", "marks_accepted",
     ]  # fmt: skip

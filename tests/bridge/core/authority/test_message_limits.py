@@ -11,16 +11,11 @@ from bridge.core.authority import message_limits
 from bridge.core.authority.message_limits import rate_limited
 from bridge.core.inbox import RejectedAt
 from bridge.core.state_senses import Flood
-from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.table import table
 from wire import DecodeFailure, Heartbeat, Stop
 
 EPS = 1e-6
-
-
-def at(start: str = "active") -> TickContext:
-    return tick_of(reached(start))
 
 
 LIMITS = {
@@ -68,13 +63,12 @@ def test_halves_follow_each_other(
 
 
 NOW_S = 100.0
-
 ONE, TWO, NONE = (1, 0, 0, 0, 0, 0), (2, 0, 0, 0, 0, 0), (0,) * 6
 
 
 def counted(flood: Flood, arrived: tuple[ArrivedAt, ...] = ()) -> tuple[Flood, bool]:
     """Return the counts after a tick at 100 s, and whether nobody had to look at them."""
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.now_s, tick.s.flood = NOW_S, flood
     tick.inbox = Inbox(arrived=arrived)
     assert rate_limited(tick) is tick.inbox
@@ -115,7 +109,7 @@ def test_what_comes_is_counted_by_its_key_alone() -> None:
 
 
 def test_of_a_flooded_key_nothing_is_heard_and_of_the_others_all() -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     beat = Heartbeat(planner_id="p1", epoch="b0-1", seen=1, used=1)
     stop = Stop(id="s1", source="test")
     came = (ArrivedAt("cmd/heartbeat", 14), ArrivedAt("cmd/waypoints", 4))
@@ -142,7 +136,7 @@ def test_of_a_flooded_key_nothing_is_heard_and_of_the_others_all() -> None:
 def test_bytes_that_are_nothing_are_charged_to_whoever_may_use_their_key(
     start: str, key: str, scored: bool
 ) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.s.bad_bucket = 1.0
     message_limits.hear_rejected(tick)
     assert tick.s.bad_bucket == 1.0
@@ -153,7 +147,7 @@ def test_bytes_that_are_nothing_are_charged_to_whoever_may_use_their_key(
 
 
 def test_a_bucket_of_ten_loses_one_in_half_a_second_and_one_per_good_message() -> None:
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.s.bad_bucket, tick.dt_s = 0.0, 0.01
     for _ in range(12):
         message_limits.bad(tick, "bad")
@@ -167,10 +161,3 @@ def test_a_bucket_of_ten_loses_one_in_half_a_second_and_one_per_good_message() -
     message_limits.drain(tick)
     message_limits.good(tick)
     assert tick.s.bad_bucket == 0.0
-
-
-def test_a_full_bucket_stays_full_and_an_empty_one_empty() -> None:
-    tick = tick_of(reached("active"))
-    tick.s.bad_bucket = 10.0
-    message_limits.bad(tick, "x")
-    assert tick.s.bad_bucket == 10.0

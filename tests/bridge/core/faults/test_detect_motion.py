@@ -17,9 +17,7 @@ from tests.bridge.core.table import table
 from wire import STILL, Imu, Pose2, RobotDescription, Twist2, Waypoints
 
 EPS = 1e-6
-
 Dirty = list[tuple[str, str]]
-
 STOOD = SentBounds(0.0, 0.0, 0.0, 0.0, 0.0)
 
 

@@ -9,23 +9,32 @@ import pytest
 
 from bridge.core import LoopFacts
 from bridge.core.faults import detectors
-from bridge.core.faults.detectors import brain, commands
 from bridge.core.sensing import sensor_update
 from bridge.core.state import RowUp
 from bridge.core.state_orders import External
 from bridge.core.state_senses import Flood
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
 
 EPS = 1e-6
-
 Dirty = list[tuple[str, str]]
 
 
-def at(start: str = "active") -> TickContext:
-    return tick_of(reached(start))
+NOW_S = 100.0
+
+
+def at_now(start: str = "active") -> TickContext:
+    tick = at(start)
+    tick.now_s = NOW_S
+    return tick
+
+
+def seen(detector: str, tick: TickContext) -> list[str]:
+    dirty: Dirty = []
+    getattr(detectors, detector)(tick, dirty)
+    return [name for name, _ in dirty]
 
 
 @table(
@@ -35,7 +44,7 @@ def at(start: str = "active") -> TickContext:
         (LoopFacts(late_s=0.005 + EPS), (-0.9, -0.8, -0.7, -0.6), 0.01, ["LOOP_LATE.0"]),
         (LoopFacts(late_s=0.005), (-0.95, -0.9, -0.8, -0.7, -0.6), 0.01, []),
         (LoopFacts(late_s=1.0), (-1.0 - EPS, -0.8, -0.7, -0.6), 0.01, []),
-        (LoopFacts(late_s=1.0), (-1.0 + EPS, -0.8, -0.7, -0.6), 0.01, ["LOOP_LATE.0"]),
+        (LoopFacts(late_s=1.0), (-1.0, -0.8, -0.7, -0.6), 0.01, ["LOOP_LATE.0"]),
         (LoopFacts(late_s=1.0), (-9.0, -0.9, -0.8, -0.7, -0.6), 0.01, ["LOOP_LATE.0"]),
         (LoopFacts(late_s=1.0), (-0.8, -0.7, -0.6), 0.01, []),
         (LoopFacts(missed_ticks=1), (), 0.01, []),
@@ -49,15 +58,13 @@ def at(start: str = "active") -> TickContext:
 def test_a_late_loop_is_seen_at_its_edges(
     facts: LoopFacts, before_s: tuple[float, ...], dt_s: float, rows: list[str]
 ) -> None:
-    tick = at()
+    tick = at_now()
     tick.inbox = replace(tick.inbox, loop=facts)
     late_at_s = tuple(tick.now_s + one for one in before_s)
     tick.s.loop = replace(tick.s.loop, late_at_s=late_at_s, missed=5)
     tick.dt_s = dt_s
-    dirty: Dirty = []
     sensor_update.note_lateness(tick)
-    detectors.loop(tick, dirty)
-    assert [name for name, _ in dirty] == rows
+    assert seen("loop", tick) == rows
     assert tick.s.loop.missed == 5 + facts.missed_ticks
     assert len(tick.s.loop.late_at_s) <= 5
     if facts.late_s > 0.005:
@@ -69,32 +76,28 @@ def test_a_late_loop_is_seen_at_its_edges(
     [
         ((-5.0,), 9, ["LOOP_LATE.1"]),
         ((-10.0 - EPS, -5.0), 9, ["LOOP_LATE.1"]),
-        ((-10.0 + EPS, -5.0), 9, ["LOOP_LATE.1", "LOOP_LATE.2"]),
+        ((-10.0, -5.0), 9, ["LOOP_LATE.1", "LOOP_LATE.2"]),
         ((-99.0, -9.0, -5.0), 9, ["LOOP_LATE.1", "LOOP_LATE.2"]),
         ((-9.0, -5.0), 2, ["LOOP_LATE.1", "LOOP_LATE.2"]),
         ((-9.0, -5.0), 1, []),
     ],
 )
 def test_three_gaps_in_ten_seconds(gaps_s: tuple[float, ...], ticks: int, rows: list[str]) -> None:
-    tick = at()
+    tick = at_now()
     tick.s.tick, tick.dt_s = ticks, 0.2
     tick.s.loop = replace(tick.s.loop, gaps_at_s=tuple(tick.now_s + one for one in gaps_s))
-    dirty: Dirty = []
     sensor_update.note_lateness(tick)
-    detectors.loop(tick, dirty)
-    assert [name for name, _ in dirty] == rows
+    assert seen("loop", tick) == rows
     assert len(tick.s.loop.gaps_at_s) == min(3, len(gaps_s) + bool(rows))
 
 
-@table(("granted", "virtual", "seen"), [(True, False, 0), (False, True, 0), (False, False, 1)])
-def test_rights_refused_matter_on_a_real_drive(granted: bool, virtual: bool, seen: int) -> None:
+@table(("granted", "virtual", "count"), [(True, False, 0), (False, True, 0), (False, False, 1)])
+def test_rights_refused_matter_on_a_real_drive(granted: bool, virtual: bool, count: int) -> None:
     tick = at()
     tick.s.loop = replace(tick.s.loop, real_time=granted)
     drive = ROBOT.drive.model_copy(update={"kind": "sim" if virtual else "metal"})
     tick.config = replace(tick.config, robot=ROBOT.model_copy(update={"drive": drive}))
-    dirty: Dirty = []
-    detectors.rights(tick, dirty)
-    assert len(dirty) == seen
+    assert len(seen("rights", tick)) == count
 
 
 def drawing(
@@ -197,13 +200,11 @@ def test_a_lidar_is_blind_where_few_beams_come_back(
     picture = replace(picture, returns=returns)
     tick.s.lidar = replace(tick.s.lidar, picture=picture, baseline_returns=normal)
     tick.s.watch.blind_s = blind_s
-    dirty: Dirty = []
-    detectors.blind(tick, dirty)
-    assert [name for name, _ in dirty] == rows
+    assert seen("blind", tick) == rows
 
 
 @table(
-    ("start", "scan", "up", "seen"),
+    ("start", "scan", "up", "count"),
     [
         ("active", True, (), 0),
         ("active", False, (), 2),
@@ -215,39 +216,20 @@ def test_a_lidar_is_blind_where_few_beams_come_back(
     ],
 )
 def test_somebody_must_watch_for_obstacles(
-    start: str, scan: bool, up: tuple[str, ...], seen: int
+    start: str, scan: bool, up: tuple[str, ...], count: int
 ) -> None:
     tick = at(start)
     newest = reached("active").state.lidar.newest if scan else None
     tick.s.lidar = replace(tick.s.lidar, newest=newest)
     tick.s.rows = {name: RowUp(0.0, 0.0, "old") for name in up}
-    dirty: Dirty = []
-    detectors.no_range(tick, dirty)
-    assert [name for name, _ in dirty] == ["NO_RANGE.0", "NO_RANGE.1"][:seen]
+    assert seen("no_range", tick) == ["NO_RANGE.0", "NO_RANGE.1"][:count]
 
 
 def test_a_flood_is_one_after_a_second_of_it() -> None:
-    for level_s, seen in ((1.0 - EPS, 0), (1.0, 1)):
+    for level_s, count in ((1.0 - EPS, 0), (1.0, 1)):
         tick = at()
         tick.s.flood = Flood(0.0, (), (), level_s, "cmd/hello")
-        dirty: Dirty = []
-        detectors.flood(tick, dirty)
-        assert len(dirty) == seen
-
-
-NOW_S = 100.0
-
-
-def at_10_s(start: str = "active") -> TickContext:
-    tick = tick_of(reached(start))
-    tick.now_s = NOW_S
-    return tick
-
-
-def seen(detector: str, tick: TickContext) -> list[str]:
-    dirty: list[tuple[str, str]] = []
-    getattr(detectors, detector)(tick, dirty)
-    return [name for name, _ in dirty]
+        assert len(seen("flood", tick)) == count
 
 
 @table(
@@ -262,7 +244,7 @@ def seen(detector: str, tick: TickContext) -> list[str]:
 def test_a_scan_is_old_or_the_same_again(
     age_s: float, equal: int, moved_m: float, up_s: float | None, stages: int
 ) -> None:
-    tick = at_10_s()
+    tick = at_now()
     scan = tick.s.lidar.newest
     assert scan is not None
     newest = scan.model_copy(update={"stamp_s": NOW_S})
@@ -276,7 +258,7 @@ def test_a_scan_is_old_or_the_same_again(
 
 
 def test_a_scan_five_times_over_exactly_2_cm_is_a_frozen_lidar() -> None:
-    tick = at_10_s()
+    tick = at_now()
     tick.s.odometry = replace(tick.s.odometry, travelled_m=0.02)
     tick.s.lidar = replace(tick.s.lidar, received_s=NOW_S, equal=5, equal_from_m=0.0)
     tick.inbox = replace(tick.inbox, sensors_same_host=False)
@@ -284,7 +266,7 @@ def test_a_scan_five_times_over_exactly_2_cm_is_a_frozen_lidar() -> None:
 
 
 def test_a_pose_is_lost_or_jumps() -> None:
-    tick = at_10_s()
+    tick = at_now()
     assert seen("pose", tick) == ["POSE_LOST.0", "POSE_LOST.1"], "the tick has not looked for it"
     tick.robot_in_map = tick.s.odometry.base_in_odom
     assert seen("pose", tick) == []
@@ -308,7 +290,7 @@ def test_a_pose_is_lost_or_jumps() -> None:
 def test_a_drive_reports_and_hears(
     age_s: float, behind: int, reborn_s: float | None, rows: list[str]
 ) -> None:
-    tick = at_10_s()
+    tick = at_now()
     state = tick.s.drive.newest
     assert state is not None
     tick.s.drive.newest = state.model_copy(update={"stamp_s": NOW_S})
@@ -333,7 +315,7 @@ def test_a_drive_reports_and_hears(
 def test_a_low_charge_fills_its_windows(
     charge: float, low_s: float, empty_s: float, after: tuple[float, float]
 ) -> None:
-    tick = at_10_s()
+    tick = at_now()
     state = tick.s.drive.newest
     assert state is not None
     tick.s.drive.newest = state.model_copy(update={"battery": charge})
@@ -343,7 +325,7 @@ def test_a_low_charge_fills_its_windows(
 
 
 def test_a_lidar_that_sees_again_drains_its_window_and_a_zone_left_is_none() -> None:
-    tick = at_10_s()
+    tick = at_now()
     tick.s.watch.blind_s, tick.s.watch.zone_mps = 0.5, 0.2
     detectors.blind(tick, [])
     assert tick.s.watch.blind_s == pytest.approx(0.4975)
@@ -356,18 +338,14 @@ def test_a_lidar_that_sees_again_drains_its_window_and_a_zone_left_is_none() -> 
     assert zone_mps is None
 
 
-def tick_in(start: str) -> TickContext:
-    return tick_of(reached(start))
-
-
 @table(
     ("echo_age_s", "since_arm", "start", "source", "rows"),
     [
-        (0.15 - EPS, True, "active", "W", []),
+        (0.15, True, "active", "W", []),
         (0.15 + EPS, True, "active", "W", ["BRAIN_LATE.0"]),
-        (0.3 - EPS, True, "active", "W", ["BRAIN_LATE.0"]),
+        (0.3, True, "active", "W", ["BRAIN_LATE.0"]),
         (0.3 + EPS, True, "active", "W", ["BRAIN_LOST.0"]),
-        (5.0 - EPS, True, "active", "W", ["BRAIN_LOST.0"]),
+        (5.0, True, "active", "W", ["BRAIN_LOST.0"]),
         (5.0 + EPS, True, "active", "W", ["BRAIN_LOST.0", "BRAIN_GONE.0"]),
         (5.0 + EPS, False, "active", "W", ["BRAIN_LOST.0"]),
         (5.0 + EPS, True, "disarmed", "", ["BRAIN_LOST.0"]),
@@ -378,41 +356,37 @@ def tick_in(start: str) -> TickContext:
 def test_a_brain_is_late_lost_or_gone(
     echo_age_s: float | None, since_arm: bool, start: str, source: str, rows: list[str]
 ) -> None:
-    tick = tick_in(start)
-    echo_s = None if echo_age_s is None else tick.now_s - echo_age_s
+    tick = at(start)
+    tick.now_s, echo_s = echo_age_s or 0.0, None if echo_age_s is None else 0.0
     tick.s.ownership = replace(tick.s.ownership, echo_s=echo_s, used_s=None)
     tick.s.grants = replace(tick.s.grants, since_arm=since_arm)
     tick.s.source = source
-    dirty: list[tuple[str, str]] = []
-    brain(tick, dirty)
-    assert [name for name, _ in dirty] == rows
+    assert seen("brain", tick) == rows
 
 
 @table(
     ("used_age_s", "owned", "stale"),
-    [(1.0 - EPS, True, False), (1.0 + EPS, True, True), (9.0, False, False), (None, True, False)],
+    [(1.0, True, False), (1.0 + EPS, True, True), (9.0, False, False), (None, True, False)],
 )
 def test_a_brain_that_thinks_on_old_facts_is_stale(
     used_age_s: float | None, owned: bool, stale: bool
 ) -> None:
-    tick = tick_in("active")
+    tick = at_now()
     used_s = None if used_age_s is None else tick.now_s - used_age_s
     owner = tick.s.ownership.owner if owned else None
     tick.s.ownership = replace(tick.s.ownership, used_s=used_s, owner=owner, echo_s=tick.now_s)
-    dirty: list[tuple[str, str]] = []
-    brain(tick, dirty)
-    assert [name for name, _ in dirty] == ["BRAIN_STALE.0"] * stale
+    assert seen("brain", tick) == ["BRAIN_STALE.0"] * stale
 
 
 @table(
     ("changes", "rows"),
     [
         ({}, []),
-        ({"age_s": 0.5 - EPS}, []),
+        ({"age_s": 0.5}, []),
         ({"age_s": 0.5 + EPS}, ["CMD_STALE.0"]),
         ({"age_s": 9.0, "reached": True}, []),
         ({"age_s": 9.0, "points": False}, []),
-        ({"external_age_s": 0.25 - EPS}, []),
+        ({"external_age_s": 0.25}, []),
         ({"external_age_s": 0.25 + EPS}, ["CMD_STALE.1"]),
         ({"bucket": 5.0 - EPS}, []),
         ({"bucket": 5.0}, ["CMD_BAD.0"]),
@@ -421,7 +395,7 @@ def test_a_brain_that_thinks_on_old_facts_is_stale(
     ],
 )
 def test_commands_grow_stale_bad_and_spent(changes: dict[str, object], rows: list[str]) -> None:
-    tick = tick_in("active")
+    tick = at_now()
     told = {"age_s": 0.0, "reached": False, "points": True, "bucket": 0.0, "metres": 5.0,
             "mission": "m1", "external_age_s": None} | changes  # fmt: skip
     horizon = tick.s.leg.horizon
@@ -439,9 +413,7 @@ def test_commands_grow_stale_bad_and_spent(changes: dict[str, object], rows: lis
     tick.s.bad_bucket = float(str(told["bucket"]))
     mission = None if told["mission"] is None else "m1"
     tick.s.grants = replace(tick.s.grants, metres=float(str(told["metres"])), mission=mission)
-    dirty: list[tuple[str, str]] = []
-    commands(tick, dirty)
-    assert [name for name, _ in dirty] == rows
+    assert seen("commands", tick) == rows
 
 
 def test_missed_ticks_are_a_reason_once_where_lateness_is_one_too() -> None:
@@ -458,7 +430,7 @@ def test_missed_ticks_are_a_reason_once_where_lateness_is_one_too() -> None:
 def test_a_hand_without_budget_is_told_for_a_second_after_it_pressed(
     ago_s: float, told: list[str]
 ) -> None:
-    tick = at_10_s("hold")
+    tick = at_now("hold")
     tick.s.grants = replace(tick.s.grants, hand_metres=0.0)
     tick.s.stick = replace(tick.s.stick, pressed_s=NOW_S - ago_s)
     assert seen("hand", tick) == told
@@ -469,7 +441,7 @@ def test_a_hand_without_budget_is_told_for_a_second_after_it_pressed(
     [(60.0, ["POSE_JUMP.0", "POSE_JUMP.1"]), (60.0 + EPS, ["POSE_JUMP.0"])],
 )
 def test_three_jumps_in_a_minute_are_worse_than_one(first_ago_s: float, rows: list[str]) -> None:
-    tick = at_10_s()
+    tick = at_now()
     tick.robot_in_map = tick.s.odometry.base_in_odom
     jumps_at_s = (NOW_S - first_ago_s, NOW_S - 5.0, NOW_S)
     drift = replace(tick.s.pose.drift, jumps_at_s=jumps_at_s)
@@ -479,7 +451,7 @@ def test_three_jumps_in_a_minute_are_worse_than_one(first_ago_s: float, rows: li
 
 @table(("less_s", "rows"), [(0.0, ["LIDAR_BLIND.0"]), (EPS, [])])
 def test_a_lidar_is_blind_once_its_window_is_full(less_s: float, rows: list[str]) -> None:
-    tick = at_10_s()
+    tick = at_now()
     tick.dt_s = 0.0
     tick.s.lidar = replace(tick.s.lidar, baseline_returns=1e6)
     tick.s.watch.blind_s = detectors.BLIND_S - less_s

@@ -11,7 +11,7 @@ from bridge.core.faults import fault_latch
 from bridge.core.faults.fault_table import STAGES, Clears
 from bridge.core.state import RowUp
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.table import table
 from wire import Action, Mode
 
@@ -25,7 +25,7 @@ def up(tick: TickContext, *names: str, age_s: float = 0.0) -> TickContext:
 
 
 def test_trouble_keeps_since_when_it_lasts_and_tells_its_newest_evidence() -> None:
-    tick = up(tick_of(reached("active")), "STUCK.0", age_s=0.3)
+    tick = up(at(), "STUCK.0", age_s=0.3)
     since_s = tick.now_s - 1.3
     fault_latch.update(tick, [("STUCK.0", "new"), ("LOOP_LATE.0", "late")])
     assert tick.s.rows == {
@@ -36,19 +36,19 @@ def test_trouble_keeps_since_when_it_lasts_and_tells_its_newest_evidence() -> No
 
 
 AUTO = sorted(n for n, s in STAGES.items() if s.clears is Clears.AUTO and s.clean_s > 0)
-
 STAY = sorted(n for n, s in STAGES.items() if s.clears is not Clears.AUTO and s.row != "BRAIN_LOST")
 
 
 @table("name", AUTO)
 def test_a_row_ends_when_it_has_been_clean_for_its_time(name: str) -> None:
     clean_s = STAGES[name].clean_s
-    tick = up(tick_of(reached("active")), name, age_s=clean_s - EPS_S)
-    before = tick.s.rows
+    tick = at()
+    tick.now_s = 100.0
+    before = up(tick, name, age_s=clean_s - EPS_S).s.rows
     fault_latch.update(tick, [])
     assert tick.s.rows == before
     assert tick.events == []
-    tick.now_s += 2 * EPS_S
+    up(tick, name, age_s=clean_s)
     fault_latch.update(tick, [])
     assert tick.s.rows == {}
     assert tick.events == [("row_down", name)]
@@ -56,7 +56,7 @@ def test_a_row_ends_when_it_has_been_clean_for_its_time(name: str) -> None:
 
 @table("name", STAY)
 def test_what_needs_somebody_stays(name: str) -> None:
-    tick = up(tick_of(reached("hold")), name, age_s=1e6)
+    tick = up(at("hold"), name, age_s=1e6)
     fault_latch.update(tick, [])
     assert set(tick.s.rows) == {name}
 
@@ -74,7 +74,7 @@ def test_what_needs_somebody_stays(name: str) -> None:
 def test_a_lost_brain_is_over_with_an_owner_where_nothing_moves(
     start: str, owned: bool, ends: bool
 ) -> None:
-    tick = up(tick_of(reached(start)), "BRAIN_LOST.0")
+    tick = up(at(start), "BRAIN_LOST.0")
     if not owned:
         tick.s.ownership = replace(tick.s.ownership, owner=None)
     fault_latch.update(tick, [])
@@ -121,7 +121,7 @@ def test_the_lowest_cap_that_binds_counts(
     zone_mps: float | None,
     cap: tuple[float, str],
 ) -> None:
-    tick = up(tick_of(reached(start)), *names)
+    tick = up(at(start), *names)
     tick.s.watch.zone_mps = zone_mps
     factor, by = fault_latch.cap(tick)
     assert factor == pytest.approx(cap[0])
@@ -141,7 +141,7 @@ EVERY = ("BRAIN_LOST.0", "ENC_STALE.1", "DRIVER_NACK.1", "NOT_RT.0", "STUCK.0")
     ],
 )
 def test_each_act_ends_what_it_may(clear: object, left: tuple[str, ...]) -> None:
-    tick = up(tick_of(reached("hold")), *EVERY)
+    tick = up(at("hold"), *EVERY)
     assert callable(clear)
     clear(tick)
     assert tuple(tick.s.rows) == left
@@ -168,4 +168,4 @@ def test_each_act_ends_what_it_may(clear: object, left: tuple[str, ...]) -> None
 def test_the_worst_that_binds_is_found(
     names: tuple[str, ...], worst: tuple[Action, str, bool]
 ) -> None:
-    assert fault_latch.worst(up(tick_of(reached("active")), *names)) == worst
+    assert fault_latch.worst(up(at(), *names)) == worst

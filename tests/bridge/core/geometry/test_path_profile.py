@@ -35,15 +35,6 @@ def test_nothing_is_the_empty_path() -> None:
     assert path.heading_rad is None
 
 
-def test_the_end_is_a_stop_and_corners_are_slow() -> None:
-    there = [point(i / 10, 0.0) for i in range(11)]
-    path = prepare([*there, *(point(1.0, i / 10) for i in range(1, 11))], LIMITS)
-    assert path.length_m == pytest.approx(2.0)
-    assert path.exits_mps[-1] == 0.0
-    assert path.exits_mps[10] < 0.25
-    assert path.exits_mps[2] == 0.5
-
-
 @given(st.lists(st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(0.05, 2)), max_size=50))
 def test_speeds_can_be_braked_from_point_to_point(points: list[tuple[float, float, float]]) -> None:
     path = prepare([point(*p) for p in points], LIMITS)
@@ -70,10 +61,7 @@ def test_no_float_raises(points: list[Waypoint]) -> None:
 
 
 WEAK = Limits(max_decel_mps2=0.8)
-
 DECEL = 0.7 * WEAK.max_decel_mps2
-
-
 Place = tuple[float, float, float]
 """x, y [m], and the speed that the sender allows there [m/s]."""
 

@@ -124,7 +124,7 @@ class Bridge(RuleBasedStateMachine):
         if part != "planner":
             setattr(self.world, part, broken)
         elif self.world.planner is not None:
-            self.world.planner.silent = broken
+            self.world.brain.silent = broken
         self.tick()
 
     @rule(

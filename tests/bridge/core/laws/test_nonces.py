@@ -13,19 +13,12 @@ from tests.laws import at_least
 from wire import OpKind
 
 STARTS = ("ready", "armed", "driving")
-
 HALTS = ("stop", "estop", "disarm")
-
 MINUTE_S = 61.0
-
 TAG = "0123456789abcdef"
-
 starts, halts = st.sampled_from(STARTS), st.sampled_from(HALTS)
-
 kinds = st.sampled_from(["arm", "reset", "resume"])
-
 acts = st.lists(st.sampled_from([*HALTS, "resume", "minute", "wait"]), min_size=1, max_size=6)
-
 seeds = st.integers(0, 2**32)
 
 
@@ -49,7 +42,7 @@ class Seen:
             self.world.chance = f"{self._random.getrandbits(64):016x}"
             self.world.tick()
             assert self.world.status is not None
-            self.nonces.append(self.world.status.nonce)
+            self.nonces.append(self.world.shown.nonce)
 
     def act(self, what: str) -> None:
         world = self.world

@@ -15,7 +15,7 @@ from bridge.core.sensing.sensor_update import look_m
 from bridge.core.state_motion import Braking, LimiterState
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.motion.test_obstacle_gate import picture
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.scripted import ROBOT
 from tests.bridge.core.table import table
 from wire import IDENTITY, Twist2
@@ -34,7 +34,7 @@ def slow(patch: pytest.MonkeyPatch) -> None:
 
 
 def driving(age_s: float = 0.0, behind: int = 0) -> TickContext:
-    tick = tick_of(reached("active"))
+    tick = at()
     tick.now_s = NOW_S
     state = tick.s.drive.newest
     assert state is not None

@@ -27,22 +27,13 @@ from tests.laws import at_least
 from wire import STILL, Mode, Status, encode
 
 EPS = 1e-9
-
 TICKS = 60
-
 STARTS = ("boot", "ready", "armed", "driving", "stopping", "teleop", "estopped")
-
-
 SEEDS = int(os.environ.get("SEEDS", len(STARTS)))
 """How many scripts to play in a row, each start in its turn; ``make seeds`` plays 200 000."""
-
-
 IN_ONE = 250
-
 READINGS = st.floats(-1_000.0, 1_000.0)
-
 seeds = st.integers(0, 2**32)
-
 starts = st.sampled_from(STARTS)
 
 
@@ -219,9 +210,8 @@ def test_no_sequence_of_inputs_breaks_a_law(start: str, seed: int) -> None:
 def taken_over(how: str) -> tuple[World, Inbox, float, Mode]:
     """Return a world, the inbox with which somebody takes the robot over, its time and the mode."""
     world = reached("active" if how == "hand under way" else "hold_granted")
-    assert world.planner is not None
     if how == "planner":
-        world.planner.goal_m = (4.0, 0.0)
+        world.brain.goal_m = (4.0, 0.0)
         return before(world, Mode.ACTIVE)
     world.teleop(held=False)
     world.run(0.03)

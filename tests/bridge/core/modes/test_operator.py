@@ -9,71 +9,36 @@ from typing import cast
 import pytest
 
 from bridge.core import Inbox, OperatorArrival
+from bridge.core.authority.requests import bad_proof
+from bridge.core.faults.fault_table import STAGES
 from bridge.core.modes import operator
 from bridge.core.modes.mode_table import RequestCause, after
+from bridge.core.modes.operator import arm_lacks, ready_lacks, reset_lacks
 from bridge.core.state import RowUp
+from bridge.core.state_orders import PendingFence
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached, tick_of
 from tests.bridge.core.scripted import World
 from tests.bridge.core.table import table
-from wire import HeldReason, Mode, OpKind, OpRequest, Proof, StandingHold, Stop
+from wire import IDENTITY, HeldReason, Mode, OpKind, OpRequest, Proof, StandingHold, Stop
 
-
-def _armed_teleop() -> World:
-    world = World().armed()
-    world.teleop(0.0, held=False)
-    world.tick()
-    world.teleop(0.3, held=True)
-    world.tick()
-    return world
-
-
-def _stopping() -> World:
-    world = World().driving()
-    world.stop()
-    world.tick()
-    return world
-
-
-def _estopped() -> World:
-    world = World().armed()
-    world.op("estop")
-    world.run(0.6)
-    return world
-
-
-def _fault() -> World:
-    world = World().driving()
-    world.drive.runs_on = True
-    world.stop()
-    world.until(Mode.FAULT, 2.0)
-    world.drive.runs_on = False
-    world.run(1.0)
-    return world
-
-
-IN: dict[Mode, Callable[[], World]] = {
-    Mode.BOOT: World,
-    Mode.SELFTEST: lambda: _run(World(), 0.3),
-    Mode.DISARMED: lambda: World().ready(),
-    Mode.HOLD: lambda: World().armed(),
-    Mode.ACTIVE: lambda: World().driving(),
-    Mode.TELEOP: _armed_teleop,
-    Mode.STOPPING: _stopping,
-    Mode.ESTOPPED: _estopped,
-    Mode.FAULT: _fault,
+IN = {
+    Mode.BOOT: "boot",
+    Mode.SELFTEST: "selftest",
+    Mode.DISARMED: "disarmed",
+    Mode.HOLD: "hold",
+    Mode.ACTIVE: "active",
+    Mode.TELEOP: "teleop",
+    Mode.STOPPING: "stopping_by_person",
+    Mode.ESTOPPED: "estopped",
+    Mode.FAULT: "fault",
 }
-
-
-def _run(world: World, seconds: float) -> World:
-    world.run(seconds)
-    return world
 
 
 @pytest.mark.parametrize("kind", ["arm", "disarm", "estop", "reset", "resume"])
 @pytest.mark.parametrize("mode", Mode, ids=str)
 def test_a_request_does_what_the_table_says_or_nothing(mode: Mode, kind: OpKind) -> None:
-    world = IN[mode]()
+    world = reached(IN[mode])
     assert world.mode is mode
     if mode is Mode.BOOT:
         proof = Proof(nonce="b0.1", mac="0" * 64)
@@ -103,9 +68,7 @@ def test_without_a_proof_nothing_starts(
     world = World().ready()
     world.stop()
     world.tick()
-    request_id = world.op(kind, authentic=authentic, nonce=nonce)
-    world.tick()
-    assert world.verdict(request_id) == code
+    assert world.asked(kind, authentic=authentic, nonce=nonce) == code
     assert world.is_in(Mode.DISARMED)
     assert world.state.held is not None
 
@@ -119,11 +82,10 @@ def test_a_request_without_any_proof_is_refused() -> None:
 
 def test_a_nonce_changes_when_used_and_stays_valid_for_what_was_signed() -> None:
     world = World(planner=None).ready()
-    assert world.status is not None
-    first = world.status.nonce
+    first = world.shown.nonce
     world.op("resume", nonce=first)
     world.run(0.1)
-    assert world.status.nonce != first
+    assert world.shown.nonce != first
     world.run(9.7)
     late = world.op("resume", nonce=first)
     world.tick()
@@ -141,8 +103,7 @@ def test_a_proof_from_before_a_stop_does_not_end_it(kind: OpKind, halt: str) -> 
     if halt == "estop once more":
         world.op("estop")
         world.run(0.1)
-    assert world.status is not None
-    signed_before = world.status.nonce
+    signed_before = world.shown.nonce
     if halt == "stop":
         world.stop()
     else:
@@ -156,8 +117,7 @@ def test_a_proof_from_before_a_stop_does_not_end_it(kind: OpKind, halt: str) -> 
 
 def test_one_id_gets_one_verdict_and_no_proof_works_twice() -> None:
     world = World().ready()
-    assert world.status is not None
-    nonce = world.status.nonce
+    nonce = world.shown.nonce
     request_id = world.op("arm", nonce=nonce)
     again = world.extra
     world.tick()
@@ -190,11 +150,8 @@ def test_arming_says_what_it_lacks(spoil: Callable[[World], None], code: str) ->
     world = World().ready()
     spoil(world)
     world.run(0.4)
-    assert world.status is not None
-    assert code in world.status.waiting_for
-    request_id = world.op("arm")
-    world.tick()
-    assert world.verdict(request_id) == code
+    assert code in world.shown.waiting_for
+    assert world.asked("arm") == code
     assert world.is_in(Mode.DISARMED)
 
 
@@ -202,16 +159,12 @@ def test_arming_needs_a_standing_robot_and_a_free_stick() -> None:
     world = World().ready()
     world.drive.runs_on, world.drive.speeds = True, (1.0, 1.0)
     world.run(0.1)
-    request_id = world.op("arm")
-    world.tick()
-    assert world.verdict(request_id) == "not_standing"
+    assert world.asked("arm") == "not_standing"
     world.drive.runs_on = False
     world.run(1.5)
     world.teleop(0.3, held=True)
     world.tick()
-    request_id = world.op("arm")
-    world.tick()
-    assert world.verdict(request_id) == "stick_not_neutral"
+    assert world.asked("arm") == "stick_not_neutral"
     world.run(0.3)
     world.op("arm")
     world.tick()
@@ -230,9 +183,7 @@ def test_disarming_ramps_first_and_sets_no_hold() -> None:
     world.op("disarm")
     world.tick()
     assert world.is_in(Mode.STOPPING)
-    assert world.last is not None
-    assert world.last.command is not None
-    assert world.last.command.enable
+    assert world.told.enable
     world.until(Mode.DISARMED, 2.0)
     assert world.state.held is None
     assert world.sent.v_mps == 0.0
@@ -240,8 +191,7 @@ def test_disarming_ramps_first_and_sets_no_hold() -> None:
 
 def test_a_row_that_disarms_sets_held_and_arming_clears_it() -> None:
     world = World().driving()
-    assert world.planner is not None
-    world.planner.silent = True
+    world.brain.silent = True
     world.run(6.0)
     assert world.state.held is not None
     assert world.state.held.reason is HeldReason.FAULT
@@ -252,10 +202,6 @@ def test_a_row_that_disarms_sets_held_and_arming_clears_it() -> None:
 
 
 HELD = StandingHold(reason=HeldReason.STOP, id="s1")
-
-
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
 
 
 def test_each_act_of_a_person_ends_what_it_should() -> None:
@@ -382,3 +328,149 @@ def test_what_takes_power_away_needs_no_proof(kind: OpKind, mode: Mode) -> None:
     operator.hear_op(tick, world.extra.ops[0])
     world.state = tick.s
     assert (world.verdict(request_id), tick.s.mode) == ("ok", mode)
+
+
+NOW_S, EPS = 10.0, 1e-6
+
+
+def standing(start: str) -> TickContext:
+    """Return a tick at 10 s of a robot that has long stood and is being recorded."""
+    tick = at(start)
+    tick.now_s, tick.s.rows = NOW_S, {}
+    tick.s.drive.received_s, tick.s.drive.still_since_s = NOW_S, 0.0
+    tick.s.loop = replace(tick.s.loop, recorder_ok=True)
+    return tick
+
+
+@table(
+    ("what", "codes"),
+    [
+        ("nothing", []),
+        ("fence", ["fence_changing"]),
+        ("moves", ["not_standing"]),
+        ("stick", ["stick_not_neutral"]),
+        ("stick_before", []),
+        ("unrecorded", ["disk_full"]),
+    ],
+)
+def test_each_thing_alone_speaks_against_arming(what: str, codes: list[str]) -> None:
+    tick = standing("disarmed")
+    if what == "fence":
+        tick.s.fence_asked = PendingFence("f1", "test", "{}", IDENTITY)
+    elif what == "moves":
+        tick.s.drive.still_since_s = NOW_S - 0.4
+    elif what.startswith("stick"):
+        pressed_s = NOW_S - 0.25 - EPS * (what == "stick_before")
+        tick.s.stick = replace(tick.s.stick, pressed_s=pressed_s)
+    elif what == "unrecorded":
+        tick.s.loop = replace(tick.s.loop, recorder_ok=False)
+        tick.inbox = Inbox(recorder_says="disk_full: nothing is left")
+    assert [code for code, _ in ready_lacks(tick)] == codes
+
+
+@table(
+    ("name", "age_s", "speaks"),
+    [
+        ("RUNAWAY.0", 2.0, True),
+        ("RUNAWAY.0", 2.0 + EPS, False),
+        ("ENC_STALE.0", 0.01 - EPS, True),
+        ("ENC_STALE.0", 0.01 + EPS, False),
+        ("LIDAR_STALE.0", 0.0, True),
+        ("NO_RANGE.0", 0.0, False),
+        ("LOOP_LATE.0", 0.0, False),
+        ("BRAIN_GONE.0", 0.0, False),
+    ],
+)
+def test_a_row_speaks_against_arming_while_it_is_dirty(
+    name: str, age_s: float, speaks: bool
+) -> None:
+    tick = standing("disarmed")
+    tick.s.rows = {name: RowUp(0.0, tick.now_s - age_s, "seen")}
+    lacks = [(STAGES[name].row.lower(), "seen")] if speaks else []
+    assert list(ready_lacks(tick)) == lacks
+
+
+@table(
+    ("change", "code"),
+    [
+        ("nothing", None),
+        ("pressed_ago", "estop_just_released"),
+        ("moves", "not_standing"),
+        ("row", "runaway"),
+        ("estop_row", None),
+        ("other_row", None),
+    ],
+)
+def test_a_reset_waits_for_one_thing_each(change: str, code: str | None) -> None:
+    for age_s in (2.0 - EPS, 2.0):
+        tick = standing("fault")
+        tick.s.buttons = replace(tick.s.buttons, pressed_s=None)
+        if change == "pressed_ago":
+            tick.s.buttons = replace(tick.s.buttons, pressed_s=tick.now_s - age_s)
+        elif change == "moves":
+            tick.s.drive.still_since_s = tick.now_s - age_s + 1.5
+        elif change.endswith("row"):
+            name = {"row": "RUNAWAY.0", "estop_row": "ESTOP.0"}.get(change, "ENC_STALE.1")
+            tick.s.rows = {name: RowUp(0.0, tick.now_s - age_s, "seen")}
+        lacks = [one for one, _ in reset_lacks(tick)]
+        assert lacks == ([code] if code and age_s < 2.0 else [])
+
+
+def test_nobody_is_armed_before_a_scan_has_come() -> None:
+    world = reached("disarmed")
+    world.state.lidar = replace(world.state.lidar, received_s=None)
+    world.lidar_silent = True
+    assert world.asked("arm") == "lidar_stale"
+
+
+def test_every_reason_is_told_to_the_last() -> None:
+    tick = at()
+    assert [code for code, _ in arm_lacks(tick)] == ["not_disarmed"]
+    assert [code for code, _ in reset_lacks(tick)] == ["not_latched"]
+    for nonce, authentic, code in ((None, True, "bad_proof"), ("b0.0", True, "old_nonce")):
+        told = [one for one, _ in bad_proof(tick, "arm", "a1", nonce, authentic=authentic)]
+        assert told == [code]
+
+
+REASON = "No space left on device in /home/pons/recordings"
+
+
+def unrecorded(world: World, says: str = f"disk_full: {REASON}") -> World:
+    world.recorder_ok, world.recorder_says = False, says
+    return world
+
+
+def waiting(world: World) -> tuple[str, ...]:
+    return world.shown.waiting_for
+
+
+def test_a_full_disk_stops_nobody_and_is_told_once() -> None:
+    world = unrecorded(World().driving((3.0, 0.0)))
+    world.run(2.0)
+    assert world.mode is Mode.ACTIVE
+    told = [event.detail for event in world.events if event.code == "disk_full"]
+    assert told == [REASON]
+    assert waiting(world) == ("disk_full",)
+    world.recorder_ok, world.recorder_says = True, ""
+    world.run(0.2)
+    assert waiting(world) == ()
+    assert [event.code for event in world.events].count("recorder_up") == 1
+
+
+def test_arming_is_refused_by_code_and_sentence_until_there_is_room() -> None:
+    world = unrecorded(World().ready())
+    world.run(0.4)
+    assert "disk_full" in waiting(world)
+    assert world.asked("arm") == "disk_full"
+    details = [item.answer.detail for item in world.state.operator.answers]
+    assert REASON in details
+    assert world.is_in(Mode.DISARMED)
+    world.recorder_ok, world.recorder_says = True, ""
+    world.run(0.4)
+    assert world.asked("arm") == "ok"
+
+
+def test_a_recorder_that_does_not_say_why_is_down() -> None:
+    world = unrecorded(World().armed(), says="")
+    world.run(0.1)
+    assert waiting(world) == ("recorder_down",)

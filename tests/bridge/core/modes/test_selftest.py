@@ -7,8 +7,6 @@ from typing import Any
 
 import pytest
 
-from bridge.core import Inbox, initial, step
-from bridge.core.geometry.fence import FenceGrid, build_fence
 from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.selftest import (
     DONE,
@@ -24,25 +22,21 @@ from bridge.core.modes.selftest import (
 from bridge.core.state import SelfTest
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at
 from tests.bridge.core.scripted import FENCE, config
 from tests.bridge.core.table import table
 from wire import Mode, RobotDescription
 
 NOW_S = 10.0
-
 DRIVE = RobotDescription().drive
-
 PATIENCE_S = DRIVE.timeout_s + DRIVE.lag_s + 0.3
-
 EPS = 1e-9
-
 UGV = RobotDescription.model_validate({"drive": {"kind": "waveshare", "port": "/dev/x"}})
 
 
 def proving(phase: str = DONE, **change: Any) -> TickContext:
     """Return a tick of a self test that lacks nothing: it has stood for 1 s, all has just come."""
-    tick = tick_of(reached("disarmed"))
+    tick = at("disarmed")
     s = tick.s
     assert s.drive.newest is not None
     tick.now_s, s.mode = NOW_S, Mode.SELFTEST
@@ -75,6 +69,7 @@ def proving(phase: str = DONE, **change: Any) -> TickContext:
         (DONE, {"received_s": NOW_S - 0.25}, []),
         (DONE, {"received_s": NOW_S - 0.25 - EPS}, ["drive", "encoders_still"]),
         (DONE, {"received_s": None}, ["drive", "encoders_still"]),
+        (DONE, {"newest": None, "received_s": None}, ["drive", "encoders_still"]),
         (DONE, {"still_since_s": NOW_S - 0.5}, []),
         (DONE, {"still_since_s": NOW_S - 0.5 + 1e-6}, ["encoders_still"]),
         (DONE, {"scan_s": NOW_S - 0.25}, []),
@@ -223,7 +218,7 @@ def test_a_fence_that_is_none_or_anothers_is_wrong(lost: str) -> None:
 
 @table("start", ["boot", "disarmed", "hold", "active", "estopped", "fault"])
 def test_commands_are_withheld_in_that_phase_of_a_self_test_alone(start: str) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     tick.s.selftest = SelfTest(WITHHOLD)
     assert not withholds(tick)
     mode = tick.s.mode
@@ -233,21 +228,9 @@ def test_commands_are_withheld_in_that_phase_of_a_self_test_alone(start: str) ->
         assert withholds(proving(phase)) is (phase == WITHHOLD)
 
 
-def test_a_fence_that_is_missing_or_of_another_map_fails_the_self_test() -> None:
-    for fence, code in ((None, "fence_missing"), (other_map(), "fence_of_another_map")):
-        core = replace(config(), fence=fence)
-        decision = step(core, initial(core, 1.0), Inbox(), 1.01)
-        assert decision.state.mode is Mode.FAULT
-        assert decision.state.fault == code
-
-
-def other_map() -> FenceGrid:
-    return build_fence("0" * 16, (((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)),))
-
-
 @table("start", ["hold", "active", "teleop"])
 def test_where_the_mode_table_knows_no_way_in_nothing_begins(start: str) -> None:
-    tick = tick_of(reached(start))
+    tick = at(start)
     before = (tick.s.mode, tick.s.selftest)
     enter(tick, Fact.UP, "up")
     assert (tick.s.mode, tick.s.selftest) == before

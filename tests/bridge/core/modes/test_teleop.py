@@ -9,16 +9,12 @@ import pytest
 from bridge.core.modes import teleop
 from bridge.core.modes.teleop import CAUSAL_S
 from bridge.core.tick_context import TickContext
-from tests.bridge.core.reached import reached, tick_of
+from tests.bridge.core.reached import at, reached
 from tests.bridge.core.table import table
 from tests.bridge.core.windows import dropped
 from wire import HeldReason, Mode, StandingHold, Velocity
 
 EPS = 1e-6
-
-
-def at(start: str) -> TickContext:
-    return tick_of(reached(start))
 
 
 def velocity(
@@ -59,18 +55,20 @@ def test_eight_sticks_are_remembered_as_ready_the_newest_ones() -> None:
 
 
 @table(
-    ("received_age_s", "sent_age_s", "fresh"),
-    [(0.25, 0.4, True), (0.25 + EPS, 0.0, False), (0.0, 0.4 + EPS, False)],
+    ("now_s", "received_s", "sent_s", "fresh"),
+    [
+        (0.25, 0.0, 0.25, True),
+        (0.4, 0.4, 0.0, True),
+        (0.25 + EPS, 0.0, 0.25, False),
+        (0.4 + EPS, 0.4, 0.0, False),
+    ],
 )
 def test_a_stick_steers_while_it_is_fresh(
-    received_age_s: float, sent_age_s: float, fresh: bool
+    now_s: float, received_s: float, sent_s: float, fresh: bool
 ) -> None:
     tick = at("teleop")
-    tick.s.stick = replace(
-        tick.s.stick,
-        received_s=tick.now_s - received_age_s + EPS / 2 * fresh,
-        sent_s=tick.now_s - sent_age_s + EPS / 2 * fresh,
-    )
+    tick.now_s = now_s
+    tick.s.stick = replace(tick.s.stick, received_s=received_s, sent_s=sent_s)
     teleop.watch(tick)
     assert (tick.s.mode is Mode.TELEOP) is fresh
     if not fresh:
@@ -86,6 +84,7 @@ def test_a_stick_steers_while_it_is_fresh(
         ({"seen": 999_999}, "teleop_stale"),
         ({"source_id": "other"}, "stick_taken"),
         ({"seq": 0}, "seq_backwards"),
+        ({"seq": 5}, "repeated"),
         ({}, None),
     ],
 )

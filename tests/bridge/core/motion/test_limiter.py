@@ -17,7 +17,6 @@ from wire import STILL, RobotDescription, Twist2
 from wire.robot import Base, Limits
 
 BASE, LIMITS = Base(), Limits()
-
 DT = 0.01
 
 
@@ -81,11 +80,8 @@ def test_a_stop_while_accelerating_never_speeds_up_first() -> None:
 
 
 speeds = st.builds(Twist2, st.floats(-2, 2), st.floats(-4, 4))
-
 wild = st.builds(Twist2, st.floats(), st.floats())
-
 memories = st.builds(LimiterState, speeds, st.floats(-3, 3), st.floats(-3, 3))
-
 profiles = st.sampled_from(Profile)
 
 
@@ -165,7 +161,6 @@ def test_a_stop_order_is_no_slower_than_letting_go(memory: LimiterState) -> None
 
 
 CART = RobotDescription()
-
 FRAME, BOUNDS = CART.base, CART.limits
 
 

@@ -23,8 +23,6 @@ def robot_of(**parts: dict[str, float]) -> RobotDescription:
 
 ROBOT = robot_of(limits={"max_decel_mps2": 0.8, "stop_jerk_mps3": 5.0})
 """Brakes at 0.8 m/s2 and takes 0.08 s of mean delay to build that up; 0.06 s late; 0.5 m wide."""
-
-
 LATE_S = 0.1 + 0.1 + 0.06 + 0.08
 """Of a scan 0.1 s old."""
 
@@ -130,12 +128,8 @@ def test_a_thing_ahead_scales_what_is_asked_and_leaves_room_less_lag() -> None:
 
 
 CURVE = Twist2(0.4, 0.4)
-
-
 POST = picture({335: 0.63})
 """At (0.571, -0.266): 0.344 m on straight ahead, and beside the way to the left."""
-
-
 ON_M = 0.63 * 0.906307787 - sqrt(0.35**2 - (0.63 * 0.422618262) ** 2)
 
 

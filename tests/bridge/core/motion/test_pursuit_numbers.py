@@ -17,16 +17,10 @@ from wire.geometry import MAX_COORDINATE_M
 from wire.robot import Base, Limits
 
 BASE, LIMITS, LAG_S = Base(), Limits(max_decel_mps2=0.8), 0.06
-
-
 LATE_S = LAG_S + 0.8 / 20 + 0.02
 """Lag, the time that the jerk limit takes, and a tick."""
-
-
 DECEL = 0.56
 """m/s2: 0.7 of it is planned with."""
-
-
 EPS = 1e-9
 
 
@@ -37,12 +31,8 @@ def route(*places: tuple[float, float], speed: float = 0.5, heading: float | Non
 
 
 STRAIGHT = route(*((i / 10, 0.0) for i in range(21)))
-
-
 BENT = route((0, 0), (0.2, 0), (0.3, 0), (0.3, 0.25), (0.3, 0.3), (0.1, 0.3))
 """0.2 m and 0.1 m along x, 0.25 and 0.05 along y, 0.2 back."""
-
-
 L_SHAPED = route((0, 0), (0.2, 0), (0.2, 0.2))
 
 
@@ -178,7 +168,6 @@ def test_a_path_of_one_point_allows_its_speed() -> None:
 
 
 SPIN = 2.24  # rad/s2: 0.56 m/s2 at wheels 0.25 m from the middle
-
 SMALL = SPIN * (sqrt(LATE_S**2 + 2 * 0.1 / SPIN) - LATE_S)
 
 

@@ -25,11 +25,9 @@ def test_the_dead_zone_is_fed_forward_once_and_not_remembered() -> None:
     robot = described.model_copy(update={"drive": described.drive.model_copy(update=plain)})
     world = World(config(robot)).driving()
     world.run(1.0)
-    assert world.last is not None
-    assert world.last.command is not None
     meant = wheels_of(world.sent, robot.base)
     assert meant.left_radps > 0.0
-    over = world.last.command.left_radps - meant.left_radps
+    over = world.told.left_radps - meant.left_radps
     assert over == pytest.approx(robot.drive.dead_zone_radps)
 
 
@@ -46,9 +44,7 @@ def wheel(world: World) -> Wheel:
 
 
 def told(world: World) -> float:
-    assert world.last is not None
-    assert world.last.command is not None
-    return world.last.command.left_radps
+    return world.told.left_radps
 
 
 def test_a_motor_unlike_its_description_turns_as_meant(world: World) -> None:
@@ -66,32 +62,6 @@ def test_a_stop_forgets_what_was_learnt_and_only_falls(world: World) -> None:
         assert 0.0 <= told(world) <= min(before, meant + world.core.robot.drive.dead_zone_radps)
         before = told(world)
     assert (told(world), wheel(world)) == (0.0, AT_REST)
-
-
-def test_a_drive_without_torque_teaches_nothing(world: World) -> None:
-    world.drive.enabled = False  # of itself: the bridge goes on telling it to turn
-    world.drive.deaf = True
-    world.tick()
-    world.tick()
-    assert world.is_in(Mode.ACTIVE)
-    assert (wheel(world).integral, wheel(world).push) == (0.0, 0.0)
-
-
-def test_another_drive_begins_with_nothing_learnt(world: World) -> None:
-    world.drive.boot_id = "d9"
-    world.tick()
-    assert (wheel(world).integral, wheel(world).push) == (0.0, 0.0)
-
-
-def test_stale_encoders_leave_the_feed_forward_alone(world: World) -> None:
-    world.drive_silent = True
-    for _ in range(9):
-        world.tick()
-        if "ENC_STALE.0" in world.rows():
-            break
-    assert "ENC_STALE.0" in world.rows()
-    assert (wheel(world).integral, wheel(world).push) == (0.0, 0.0)
-    assert told(world) > 0.0
 
 
 def test_without_torque_the_wheels_are_told_nothing(world: World) -> None:
@@ -200,7 +170,7 @@ def test_wheels_are_corrected_by_readings_that_may_be_trusted(
         drive.newest = None
     motion.limiter = LimiterState(Twist2(0.4, 0.0))
     wheel = replace(AT_REST, told_radps=4.0, due_radps=4.0, expected_radps=4.0, push=0.25)
-    motion.left = motion.right = wheel
+    wheel = motion.left = motion.right = replace(wheel, integral=0.1)
     told = wheel_command.command(tick)
     assert tick.s.mode is Mode.ACTIVE
     if corrects is None:  # no reading in this tick: what was found before stays
@@ -209,16 +179,8 @@ def test_wheels_are_corrected_by_readings_that_may_be_trusted(
         assert 0.25 < motion.right.push < motion.left.push
         assert told.left_radps > told.right_radps
     else:
-        assert (motion.left.push, motion.right.push) == (0.0, 0.0)
-
-
-def test_without_a_pose_or_a_path_nothing_is_followed() -> None:
-    world = reached("active")
-    world.state.leg = replace(world.state.leg, path=None)
-    assert world.planner is not None
-    world.planner.next_horizon_s = 1e9
-    world.tick()
-    assert world.state.motion.asked == STILL
+        assert {(one.push, one.integral) for one in (motion.left, motion.right)} == {(0.0, 0.0)}
+        assert told.left_radps > 0.0, "fed forward alone"
 
 
 def test_without_a_way_there_is_no_end_and_a_way_is_followed_on() -> None:

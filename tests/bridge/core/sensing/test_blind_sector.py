@@ -10,8 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bridge.core.geometry.lidar_scan import ScanPicture
-from bridge.core.sensing.blind_sector import runs, watch_sectors
+from bridge.core.sensing.blind_sector import COARSE_RAD, coarse_words, runs, watch_sectors
 from bridge.core.state_senses import SectorMemory
+from tests.bridge.core.scripted import World
+from tests.laws import fewer
 from wire import Pose2, Scan
 from wire.lidar_config import LidarConfig
 
@@ -104,7 +106,7 @@ class Room:
 
 
 @pytest.mark.parametrize("beams", PRESET_BEAMS)
-@pytest.mark.parametrize("width_deg", [15, 20, 30, 45, 60, 90, 120])
+@pytest.mark.parametrize("width_deg", [15, 45, 120])
 def test_a_hole_of_any_width_in_any_lidar_is_found_when_it_comes(
     beams: int, width_deg: int
 ) -> None:
@@ -117,8 +119,8 @@ def test_a_hole_of_any_width_in_any_lidar_is_found_when_it_comes(
     assert room.scan(1).ahead_rad == 0.0, "what returns is alive"
 
 
-@pytest.mark.parametrize("cuts", [2, 3, 5, 8])
-@pytest.mark.parametrize("beams", PRESET_BEAMS)
+@pytest.mark.parametrize("cuts", [2, 3, 8])
+@pytest.mark.parametrize("beams", [180, 360, 667, 1440])
 @pytest.mark.parametrize("middle_rad", [0.1, pi])
 def test_a_hole_is_found_where_each_scan_begins_at_another_beam(
     middle_rad: float, beams: int, cuts: int
@@ -242,6 +244,7 @@ def test_no_way_past_anything_black_shows_a_hole(
         assert room.scan().dead == 0
 
 
+@fewer(2)
 @given(
     _BEAMS, _MOVES, st.integers(15, 120), st.floats(-pi, pi),
     st.tuples(st.floats(-0.05, 0.05), st.floats(-0.12, 0.12)),
@@ -264,6 +267,7 @@ def test_a_hole_that_comes_in_any_motion_is_dead_in_three_scans(
     assert room.memory.dead == held, "it stays until something returns"
 
 
+@fewer(4)
 @given(
     st.sampled_from((180, 360)), st.integers(15, 120), st.floats(-pi, pi),
     st.sampled_from([2.0, 30.0]), st.sampled_from([-1, 1]), st.integers(4, 6),
@@ -329,3 +333,15 @@ def test_runs_are_those_of_the_mask_and_no_bit_is_in_two(mask: int, least: int) 
     assert all((last - first) % 24 + 1 >= least for first, last in found)
     if least == 1 and mask != (1 << 24) - 1:
         assert len(bits) == mask.bit_count()
+
+
+def test_a_scan_of_few_beams_is_told_once() -> None:
+    world = World().ready()
+    told = [event for event in world.events if event.code == "scan_coarse"]
+    assert [event.detail for event in told] == [coarse_words(0.08726646259971647)]
+    assert "5 degrees between beams" in told[0].detail
+    assert "0.09 m slips" in told[0].detail
+
+
+def test_no_lidar_that_is_read_by_pons_is_called_coarse() -> None:
+    assert COARSE_RAD > 6.2832 / 180

@@ -17,8 +17,11 @@ from bridge.core.sensing.sensor_update import (
     DRIFT_RAD,
     SLIP_GAP_S,
     SLIP_RADPS,
+    look_m,
     recorder_lack,
+    sight_m,
 )
+from bridge.core.state_motion import Braking
 from bridge.core.state_senses import Drift, LidarMemory, PoseMemory
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.fake_planner import BOOT, MAP_ID
@@ -27,14 +30,9 @@ from tests.bridge.core.table import table
 from wire import IDENTITY, DriveState, Imu, Localization, Pose2, RobotDescription, Scan
 
 NOW_S = 50.0
-
 EPS = 1e-6
-
-
 BASE = {"wheel_radius_m": 0.125, "wheel_separation_m": 0.5}
 """So that the very bounds of standing, 0.02 m/s and 0.05 rad/s, are speeds of these wheels."""
-
-
 ROBOT = RobotDescription.model_validate({"base": BASE})
 
 
@@ -321,8 +319,10 @@ def test_a_jump_takes_the_grant_and_the_way_and_is_told(
     tick.s.odometry = replace(tick.s.odometry, base_in_odom=here)
     granted, leg = tick.s.grants, tick.s.leg
     assert None not in (granted.mission, leg.horizon, leg.path)
-    if sensor_update._hear_localization(tick, placed(odom_in_map=new, quality=quality)):
+    said = placed(odom_in_map=new, quality=quality)
+    if sensor_update._hear_localization(tick, said):
         revoke(tick)
+    assert tick.s.pose.good == (last if quality < 0.5 else said), "what is compared with next"
     assert tick.s.pose.jumped_s == (NOW_S if jumps else 1.0)
     assert tick.s.grants == (granted.return_budget() if jumps else granted)
     assert tick.s.leg == (replace(leg, horizon=None, path=None) if jumps else leg)
@@ -441,3 +441,39 @@ def test_just_on_its_edge_a_tick_is_neither_late_nor_a_gap(
     tick.s.loop = replace(before, late_at_s=(), gaps_at_s=())
     sensor_update.note_lateness(tick)
     assert (len(tick.s.loop.late_at_s), len(tick.s.loop.gaps_at_s)) == (late, gap)
+
+
+def robot_of(**parts: dict[str, float]) -> RobotDescription:
+    return RobotDescription.model_validate(parts)
+
+
+CART = robot_of(limits={"max_decel_mps2": 0.8, "stop_jerk_mps3": 5.0})
+
+
+"""Brakes at 0.8 m/s2 and takes 0.08 s of mean delay to build that up; 0.06 s late; 0.5 m wide."""
+
+
+@table(
+    ("robot", "known_as", "look"),
+    [
+        # v d / 2 j + v rim / 2 d + v (0.15 + scan + lag), and a millimetre
+        (CART, Braking(), 0.04 + 0.5 * 0.75 / 1.6 + 0.5 * 0.31),
+        (CART, Braking(0.1, 0.5), 0.04 + 0.5 * 0.75 / 0.8 + 0.5 * 0.41),
+        (robot_of(limits={"max_wheel_radps": 6.0}), Braking(), 0.025 + 0.5 * 0.6 / 2 + 0.155),
+        (robot_of(lidar={"scan_s": 0.05}), Braking(), 0.025 + 0.1875 + 0.5 * 0.26),
+        # a late drive: the limiter wants 2 v (tick + lag) + d^3 / 24 j^2 more
+        (
+            robot_of(limits={"max_decel_mps2": 0.8, "stop_jerk_mps3": 2.5}, drive={"lag_s": 0.4}),
+            Braking(),
+            0.08 + 0.5 * 0.75 / 1.6 + 0.41 + 0.512 / 150,
+        ),
+        (robot_of(limits={"max_speed_mps": 0.2, "max_turn_radps": 0.5}), Braking(), 0.3),
+        (robot_of(limits={"max_speed_mps": 1.0, "max_decel_mps2": 0.2}), Braking(), 1.999),
+    ],
+)
+def test_how_far_anybody_needs_to_look(
+    robot: RobotDescription, known_as: Braking, look: float
+) -> None:
+    assert look_m(robot, known_as) == pytest.approx(look + 0.001)
+    moved_m = robot.limits.max_speed_mps * 0.15
+    assert sight_m(robot, known_as) == pytest.approx(look + 0.001 + 0.3 + 0.05 + moved_m + 0.002)

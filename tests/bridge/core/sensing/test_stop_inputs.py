@@ -28,9 +28,7 @@ def at(start: str) -> TickContext:
 
 
 SILENT, DOWN = "the stop button's link is silent", "the stop button's link says pressed"
-
 INPUT = "the drive's stop input is pressed"
-
 UNTOLD = "the drive does not tell its stop input"
 
 
@@ -113,6 +111,4 @@ def test_a_stop_link_that_is_pressed_is_said() -> None:
     world.extra = Inbox(estop_link=EstopLink(seq=1, pressed=True))
     world.tick()
     assert world.is_in(Mode.ESTOPPED)
-    request_id = world.op("reset")
-    world.tick()
-    assert world.verdict(request_id) == "estop_pressed"
+    assert world.asked("reset") == "estop_pressed"
