@@ -21,6 +21,7 @@ from fleet.robots import add_robot
 from fleet.service import own_home
 from fleet.store import FleetStore
 from tests.fleet.postgres import Cluster, running_cluster
+from tests.known import known
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -62,8 +63,7 @@ class StubRobot:
         self.process = subprocess.Popen(
             [*words, str(self.port)], cwd=ROOT, stdout=subprocess.PIPE, text=True
         )
-        assert self.process.stdout is not None
-        self.process.stdout.readline()
+        known(self.process.stdout).readline()
 
     def kill(self) -> None:
         self.process.kill()

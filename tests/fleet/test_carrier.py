@@ -20,6 +20,7 @@ from tests.fleet.conftest import RunningFleet, until
 from tests.fleet.judge import CLEAN, judge
 from tests.fleet.postgres import running_cluster
 from tests.fleet.test_store import R1, give
+from tests.known import known
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -197,12 +198,11 @@ def test_a_carrier_that_froze_stands_by_when_it_wakes(
     carrier.await_ready(robot)
     (mission,) = carrier.give("go to the hall")
     carrier.await_state(mission["id"], "at_robot")
-    assert carrier.process is not None
-    carrier.process.send_signal(signal.SIGSTOP)
+    known(carrier.process).send_signal(signal.SIGSTOP)
     try:
         until(lambda: carries(standby))
     finally:
-        carrier.process.send_signal(signal.SIGCONT)
+        known(carrier.process).send_signal(signal.SIGCONT)
     until(lambda: stands_by(carrier))
     robot.rule(work_s=0.0)
     carrier.await_state(mission["id"], "succeeded")

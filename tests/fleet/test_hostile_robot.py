@@ -9,6 +9,7 @@ import psutil
 import pytest
 
 from tests.fleet.judge import CLEAN, judge
+from tests.known import known
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,8 +30,7 @@ def test_hostile_robots_harm_no_other(
     fleet.add(*honest, *evil)
     fleet.start("fleet.watch.SILENT_S = 2.0")
     fleet.await_ready(*honest, *evil)
-    assert fleet.process is not None
-    service = psutil.Process(fleet.process.pid)
+    service = psutil.Process(known(fleet.process).pid)
     first = fleet.give("nearest: go to the hall")  # the first choice of all loads scipy
     fleet.await_state(first[0]["id"], "succeeded")
     for robot in evil:

@@ -15,6 +15,7 @@ from pons.authority import issue
 from tests.conftest import ROOT
 from tests.fleet.conftest import RunningFleet, until
 from tests.fleet.judge import CLEAN, judge
+from tests.known import known
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -60,8 +61,7 @@ class NetworkedRobot:
             ["ip", "netns", "exec", self.space, *module, *self._words],
             cwd=ROOT, stdout=subprocess.PIPE, text=True,
         )  # fmt: skip
-        assert self.process.stdout is not None
-        self.process.stdout.readline()
+        known(self.process.stdout).readline()
 
     def plug(self, state: str) -> None:
         """Plug its end of the cable in or out: without ours, packets would go the default way."""

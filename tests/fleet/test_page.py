@@ -14,6 +14,7 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from scripts.browser import CHROMIUM, chromium
 from tests.fleet.conftest import ROOT, RunningFleet, StubRobot, until
+from tests.known import known
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -210,10 +211,8 @@ def test_a_hostile_robot_harms_no_other_and_writes_no_element(
     assert page.locator("#evil, img[src=x]").count() == 0
     until(lambda: house.states()["odd"] == "robot_silent")
     assert house.states()["good"] == "ready"
-    assert house.process is not None
-    status = Path(f"/proc/{house.process.pid}/status").read_text("ascii")
-    peak = re.search(r"VmHWM:\s+(\d+) kB", status)
-    assert peak is not None
+    status = Path(f"/proc/{known(house.process).pid}/status").read_text("ascii")
+    peak = known(re.search(r"VmHWM:\s+(\d+) kB", status))
     assert int(peak[1]) < 250_000  # the 100 MB were not read
 
 

@@ -13,6 +13,7 @@ from pons import site
 from pons.settings import LaunchSettings, site_of
 from pons.site_findings import reserved_name_findings
 from pons_assets import ROBOT_FILE, SITES
+from tests.known import known
 from tests.site_sentences import english_in
 from wire import FenceFile
 
@@ -69,8 +70,7 @@ def test_a_proposed_room_gets_a_name_and_is_a_place(
     before = Site.load(site_of("mine", settings.home)).map_id
     assert site.run(settings, ["name", "mine", "room_1", "tea kitchen", "--zh", "茶水间"]) == 0
     loaded = Site.load(site_of("mine", settings.home))
-    found = loaded.find_place("茶水间")
-    assert found is not None
+    found = known(loaded.find_place("茶水间"))
     assert found.id == "tea_kitchen"
     assert loaded.map_id == before
     assert site.run(settings, ["name", "mine", "room_2", "tea kitchen"]) == 3

@@ -15,6 +15,7 @@ from pons.calibrate.findings import CalibrationFinding, findings, of_straight
 from pons.calibrate.procedure import CalibrationPlan
 from pons.calibrate.reference import TRUTH, went_m
 from pons.calibrate.runs import straight
+from tests.known import known
 from tests.pons.calibrate.metal import FACING, TRUE, Bench, gone_through
 from tools.lockstep import LockstepWorld
 from wire import Mode, Pose2, SimFault, distance
@@ -84,8 +85,7 @@ def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, Calibratio
     at: list[Pose2] = [began]
 
     def measure() -> float:
-        assert heard.truth is not None
-        here = heard.truth.base_in_map
+        here = known(heard.truth).base_in_map
         apart_m = distance(here, at[-1])
         at.append(here)
         return round(apart_m, 2)  # as a tape is read

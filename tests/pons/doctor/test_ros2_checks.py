@@ -12,6 +12,7 @@ import pytest
 
 from pons.doctor import ros2_checks, running_process
 from pons.doctor.finding import HealthVerdict
+from tests.known import known
 from tests.ros2.words import robot
 from tests.wire.examples import EXAMPLES
 from wire import Nav2State, Record, RobotDescription, Ros2Status, keys
@@ -31,8 +32,7 @@ from wire.session import open_session
     ],
 )
 def test_a_node_that_others_reach_is_told(node: str, is_open: bool) -> None:
-    config = robot(node=node).ros2
-    assert config is not None
+    config = known(robot(node=node).ros2)
     verdict = HealthVerdict.WARN if is_open else HealthVerdict.OK
     assert ros2_checks._describe(config, None, "").verdict is verdict
 
@@ -71,8 +71,7 @@ def test_a_process_that_runs_is_heard_instead(tmp_path: Path) -> None:
 
 def test_where_nav2_drives_its_velocity_is_looked_at_too(tmp_path: Path) -> None:
     by_nav2 = robot()
-    assert by_nav2.ros2 is not None
-    ros2 = by_nav2.ros2.model_copy(update={"nav2": Nav2Config()})
+    ros2 = known(by_nav2.ros2).model_copy(update={"nav2": Nav2Config()})
     by_nav2 = by_nav2.model_copy(update={"ros2": ros2})
     well = EXAMPLES[Ros2Status].model_copy(update={"code": None, "detail": ""})
     missing = {"code": "ros2_topic_missing", "detail": "the graph has no /cmd_vel_nav; start it"}

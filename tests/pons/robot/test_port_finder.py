@@ -19,6 +19,7 @@ from pons.robot.command import describe
 from pons.robot.port_finder import PROBES, PortFinding, question_port, question_ports
 from sim.twin.lidar import LIDAR_TWINS, LidarFirmware
 from sim.twin.twin import FIRMWARES
+from tests.known import known
 from tests.pons.robot.twin_ports import (
     BASES,
     PlayedBase,
@@ -72,27 +73,24 @@ def test_each_lidar_is_named_with_its_model(name: str, found: dict[str, PortFind
     kind, model = LIDARS[name]
     one = found[name]
     assert (one.code, one.part, one.kind) == ("port_found", "lidar", kind), one
-    assert one.answer is not None
-    assert one.answer.keys.get("model") == model
+    assert known(one.answer).keys.get("model") == model
     assert one.baud == LIDAR_TWINS[kind, model].baud
-    given_keys = {"kind": kind, "port": "/dev/x", **one.answer.keys}
+    given_keys = {"kind": kind, "port": "/dev/x", **known(one.answer).keys}
     assert LidarConfig.model_validate(given_keys).model == model  # robot.toml takes it
 
 
 def test_a_motor_controller_is_named_with_its_battery(found: dict[str, PortFinding]) -> None:
     one = found["mcu"]
     assert (one.code, one.part, one.kind) == ("port_found", "drive", "pons_mcu")
-    assert one.answer is not None
-    assert "battery" in one.answer.words
-    assert "ticks_per_turn" in one.answer.missing
+    assert "battery" in known(one.answer).words
+    assert "ticks_per_turn" in known(one.answer).missing
 
 
 @pytest.mark.parametrize("kind", BASES_OF_OTHERS)
 def test_each_base_is_named(kind: str, found: dict[str, PortFinding]) -> None:
     one = found[kind]
     assert (one.code, one.part, one.kind) == ("port_found", "drive", kind), one
-    assert one.answer is not None
-    assert set(one.answer.missing) == set(DRIVE_KINDS[kind].needed) - {"port"}
+    assert set(known(one.answer).missing) == set(DRIVE_KINDS[kind].needed) - {"port"}
 
 
 def test_a_lidar_that_still_turns_is_named_though_it_does_not_answer(
@@ -100,8 +98,7 @@ def test_a_lidar_that_still_turns_is_named_though_it_does_not_answer(
 ) -> None:
     one = found[TURNING]
     assert (one.code, one.kind) == ("port_found", "rplidar"), one
-    assert one.answer is not None
-    assert "model" in one.answer.missing
+    assert "model" in known(one.answer).missing
 
 
 def test_what_nobody_knows_is_asked_nothing_and_silence_is_told(

@@ -22,6 +22,7 @@ from pons.robot.trial_run import set_trial
 from pons.robot.trial_words import PROMPTS, REFUSALS
 from sim.twin.line import TwinLine
 from tests.conftest import ROOT
+from tests.known import known
 from tests.pons.robot.stand import START_S, TICK_S, Stand
 from wire import load_robot
 from wire.trial_record import TrialRecord
@@ -175,8 +176,7 @@ def test_a_person_tries_a_base_and_the_bridge_may_then_drive_it(
             ending.set()
             thread.join()
             line.close()
-    trial = load_robot(path).valid_trial
-    assert trial is not None
+    trial = known(load_robot(path).valid_trial)
     assert 0.2 <= trial.dead_man_s <= 0.5
     moved = load_robot(path).model_copy(
         update={"drive": load_robot(path).drive.model_copy(update={"ticks_per_turn": 99})}

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from sim.camera import PicturePair, SimCamera
+from tests.known import known
 from tests.sim.camera.gallery import CAMERA, MIDDLE, hall
 from wire import SimFault, SimScene
 
@@ -75,8 +76,7 @@ def test_stuck_repeats_one_picture_freshly_stamped() -> None:
 def test_blind_is_black_without_depth() -> None:
     found = shot(Taking().shots(1, BLIND)[0])
     for data in (found.color, found.depth):
-        picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-        assert picture is not None
+        picture = known(cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED))
         assert picture.max() == 0
 
 

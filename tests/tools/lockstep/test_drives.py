@@ -9,6 +9,7 @@ from math import hypot
 import pytest
 
 from planner.plan import GoalState
+from tests.known import known
 from tools.lockstep import TICK_S, Disturbance, GoalHandle, LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2
@@ -25,8 +26,7 @@ HOLD2_TICKS = 31
 
 
 def inside(world: LockstepWorld, room_id: str) -> bool:
-    room = world.scene.site.place(room_id)
-    assert room is not None
+    room = known(world.scene.site.place(room_id))
     return room.contains(world.truth.x_m, world.truth.y_m)
 
 
@@ -85,12 +85,9 @@ def test_a_goal_in_either_language_ends_standing_in_the_room_and_a_bad_wire_cost
     assert stands(goal, GoalState.SUCCEEDED)
     assert inside(world, "living_room")
     assert world.standing
-    outcome = goal.record.outcome
-    assert outcome is not None
-    assert outcome.reached is not None
-    assert outcome.reached.room == "living_room"
-    assert outcome.metres is not None
-    assert outcome.metres > 1.0
+    outcome = known(goal.record.outcome)
+    assert known(outcome.reached).room == "living_room"
+    assert known(outcome.metres) > 1.0
     assert world.contacts == 0
 
 
@@ -145,8 +142,7 @@ def test_a_silent_brain_is_held_within_31_ticks_of_its_last_echo(
     world.run(phase * TICK_S)
     world.kill_planner() if way == "kill" else world.freeze_planner()
     world.run_until(lambda w: w.bridge.state.mode is Mode.STOPPING, 1.0)
-    echoed_s = world.bridge.state.ownership.echo_s
-    assert echoed_s is not None
+    echoed_s = known(world.bridge.state.ownership.echo_s)
     assert round((world.now_s - echoed_s) / TICK_S) <= HOLD2_TICKS
     world.run_until(lambda w: w.standing, 3.0)
     assert world.contacts == 0

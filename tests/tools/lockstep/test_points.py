@@ -9,6 +9,7 @@ import pytest
 
 from planner.brain import ScriptedBrain
 from planner.plan import Code, GoalState, GoToPose, PauseReason, StepPlan, Wait
+from tests.known import known
 from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Pose2, wrap
 
@@ -33,8 +34,7 @@ def off(world: LockstepWorld, at: GoToPose) -> tuple[float, float]:
 def ended(world: LockstepWorld, goal: GoalHandle, limit_s: float = 60.0) -> Code:
     world.run_until(lambda _: goal.has_ended, limit_s)
     assert world.contacts == 0
-    outcome = goal.record.outcome
-    assert outcome is not None
+    outcome = known(goal.record.outcome)
     return outcome.code
 
 
@@ -52,8 +52,7 @@ def test_the_robot_stands_on_the_point_at_its_heading(ready: World, yaw_rad: flo
     assert record.brain is None, "no brain was asked"
     assert record.outcome is not None
     assert record.outcome.message.en == "Arrived: point (1.60, 4.60)."
-    assert record.outcome.asked is not None
-    assert (record.outcome.asked.x_m, record.outcome.asked.y_m) == (1.6, 4.6)
+    assert (known(record.outcome.asked).x_m, known(record.outcome.asked).y_m) == (1.6, 4.6)
 
 
 def test_points_are_driven_to_in_their_row(ready: World) -> None:
@@ -61,15 +60,15 @@ def test_points_are_driven_to_in_their_row(ready: World) -> None:
     row = (point(world, 1.6, 4.6), point(world, 2.2, 3.9), point(world, 1.5, 2.0, yaw_rad=1.0))
     goal = world.go(*row)
     world.run_until(lambda _: goal.record.plan is not None, 5.0)
-    assert goal.record.plan is not None
-    assert [step.kind for step in goal.record.plan.steps] == ["go_to_pose"] * 3
+    assert [step.kind for step in known(goal.record.plan).steps] == ["go_to_pose"] * 3
     assert ended(world, goal, 120.0) is Code.ARRIVED
-    steps = goal.record.plan.steps
+    steps = known(goal.record.plan).steps
     for there, step in zip(row, steps, strict=True):
         assert step.reached is not None
-        assert step.reached.x_m is not None
-        assert step.reached.y_m is not None
-        assert hypot(step.reached.x_m - there.x_m, step.reached.y_m - there.y_m) <= REACHED_M
+        assert (
+            hypot(known(step.reached.x_m) - there.x_m, known(step.reached.y_m) - there.y_m)
+            <= REACHED_M
+        )
     assert off(world, row[-1])[1] <= REACHED_DEG
 
 
@@ -99,8 +98,7 @@ def test_a_point_that_nobody_can_stand_on_is_refused_with_its_reason(
     assert ended(world, goal) is code
     assert goal.state is GoalState.REFUSED
     assert goal.record.reason == code.value
-    assert goal.record.outcome is not None
-    message = goal.record.outcome.message
+    message = known(goal.record.outcome).message
     assert message.en
     assert message.zh
     assert message.en != message.zh

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from planner.plan import GoalState
+from tests.known import known
 from tools.lockstep import GoalHandle, LockstepWorld
 
 LIMIT_S = 90.0
@@ -16,8 +17,7 @@ def set_off(ready: Callable[..., LockstepWorld], order: str) -> tuple[LockstepWo
     goal = world.say(order)
     loop = world.planner.missions.loop
     world.run(4.0)  # into the hallway
-    way = loop._engine.way_ahead(3.0)
-    assert way is not None
+    way = known(loop._engine.way_ahead(3.0))
     world.place_obstacle(*way.points[-1])
     return world, goal
 

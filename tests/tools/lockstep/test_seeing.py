@@ -24,6 +24,7 @@ from planner.plan import (
     StepPlan,
     StepRecord,
 )
+from tests.known import known
 from tools.lockstep import GoalHandle, LockstepWorld
 from tools.lockstep.homes import stock_home
 from wire import Pose2, wrap
@@ -65,16 +66,14 @@ def world_with(ready: Callable[..., LockstepWorld], home: Path) -> World:
 
 def done(world: LockstepWorld, goal: GoalHandle, limit_s: float = 90.0) -> StepRecord:
     world.run_until(lambda _: goal.has_ended, limit_s)
-    plan = goal.record.plan
-    assert plan is not None
+    plan = known(goal.record.plan)
     assert world.contacts == 0
     assert world.standing or goal.state is GoalState.SUCCEEDED
     return plan.steps[0]
 
 
 def told(goal: GoalHandle) -> tuple[Code, str, str]:
-    outcome = goal.record.outcome
-    assert outcome is not None
+    outcome = known(goal.record.outcome)
     return outcome.code, outcome.message.en, outcome.message.zh
 
 
@@ -87,8 +86,7 @@ def test_what_is_in_another_room_is_found_and_not_what_stands_beside_it(world_wi
     goal = world.say("找红色的杯子")
     step = done(world, goal)
     assert goal.state is GoalState.SUCCEEDED
-    found = step.found
-    assert found is not None
+    found = known(step.found)
     assert (found.label, found.color, found.room) == ("cup", "red", "kitchen")
     assert hypot(found.x_m - RED[0], found.y_m - RED[1]) < 0.15
     away_m = hypot(world.truth.x_m - RED[0], world.truth.y_m - RED[1])

@@ -23,6 +23,7 @@ from planner.plan import (
     StepRecord,
     Turn,
 )
+from tests.known import known
 from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Pose2
 
@@ -49,8 +50,7 @@ def world_with(ready: Callable[..., LockstepWorld]) -> World:
 
 def done(world: LockstepWorld, goal: GoalHandle, limit_s: float = 60.0) -> tuple[StepRecord, ...]:
     world.run_until(lambda _: goal.has_ended, limit_s)
-    plan = goal.record.plan
-    assert plan is not None
+    plan = known(goal.record.plan)
     assert world.contacts == 0
     return plan.steps
 
@@ -85,8 +85,7 @@ def test_it_turns_by_the_angle_that_was_asked_and_drives_nowhere(
     assert degrees(way_rad) == pytest.approx(asked_deg, abs=4.0), "and by the way that was asked"
     assert hypot(world.truth.x_m - before.x_m, world.truth.y_m - before.y_m) < 0.03
     assert step.turned_rad == pytest.approx(radians(asked_deg), abs=0.1)
-    assert step.residual_rad is not None
-    assert abs(step.residual_rad) < 0.1
+    assert abs(known(step.residual_rad)) < 0.1
 
 
 @pytest.mark.parametrize("distance_m", [0.5, -0.3])
@@ -100,8 +99,7 @@ def test_it_moves_straight_by_the_distance_that_was_asked(
     assert ahead_m(before, world.truth) == pytest.approx(distance_m, abs=0.06)
     assert turned_deg(before, world.truth) == pytest.approx(0.0, abs=4.0)
     assert step.moved_m == pytest.approx(distance_m, abs=0.06)
-    outcome = goal.record.outcome
-    assert outcome is not None
+    outcome = known(goal.record.outcome)
     assert f"{abs(distance_m):.1f} m" in outcome.message.en
 
 
@@ -113,8 +111,7 @@ def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: 
         GoalState.FAILED, "no_room", "no_room")  # fmt: skip
     world.run(1.0)
     assert world.truth.x_m == pytest.approx(before.x_m, abs=1e-3)
-    outcome = goal.record.outcome
-    assert outcome is not None
+    outcome = known(goal.record.outcome)
     assert outcome.code is Code.NO_ROOM
     assert outcome.message.en.startswith("In a straight line there is room for ")
     assert outcome.message.en.endswith(" m, not for 5.0 m.")
@@ -123,8 +120,7 @@ def test_towards_a_wall_nothing_moves_and_the_room_there_is_is_told(world_with: 
 def test_a_patrol_visits_its_places_in_their_order(world_with: World) -> None:
     world = world_with((Patrol(places=("charging_dock", "kitchen")),), start=BY_THE_DOCK)
     goal = world.say("patrol")
-    dock = world.scene.site.place("charging_dock")
-    assert dock is not None
+    dock = known(world.scene.site.place("charging_dock"))
     world.run_until(lambda w: hypot(w.truth.x_m - dock.pose.x_m, w.truth.y_m - dock.pose.y_m) < 0.1)
     assert not goal.has_ended
     (step,) = done(world, goal)
@@ -204,11 +200,9 @@ def test_it_stands_so_far_before_the_sofa_and_faces_it(world_with: World) -> Non
     goal = world.say("stop 80 centimetres before the sofa, then face the dock")
     before, facing = done(world, goal, limit_s=120.0)
     assert goal.state is GoalState.SUCCEEDED
-    assert before.reached is not None
-    assert before.reached.x_m == pytest.approx(1.7, abs=0.3)
-    assert before.reached.y_m == pytest.approx(5.25 - 0.3 - 0.8, abs=0.3)
-    assert before.said is not None
-    assert before.said.en.startswith(("I stand 0.7 m", "I stand 0.8 m", "I stand 0.9 m"))
+    assert known(before.reached).x_m == pytest.approx(1.7, abs=0.3)
+    assert known(before.reached).y_m == pytest.approx(5.25 - 0.3 - 0.8, abs=0.3)
+    assert known(before.said).en.startswith(("I stand 0.7 m", "I stand 0.8 m", "I stand 0.9 m"))
     assert facing.said is not None
     bearing = atan2(0.8 - world.truth.y_m, 0.9 - world.truth.x_m)
     assert abs(degrees(sin(bearing - world.truth.yaw_rad))) < 15.0
@@ -221,6 +215,5 @@ def test_where_there_is_no_floor_it_stays_and_says_so(world_with: World) -> None
     (step,) = done(world, goal)
     assert goal.state is GoalState.FAILED
     assert step.reason == "no_spot"
-    assert goal.record.outcome is not None
-    assert "no free floor behind the sofa" in goal.record.outcome.message.en
+    assert "no free floor behind the sofa" in known(goal.record.outcome).message.en
     assert hypot(world.truth.x_m - before.x_m, world.truth.y_m - before.y_m) < 0.01

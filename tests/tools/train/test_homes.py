@@ -17,6 +17,7 @@ from sim.camera import Appearance, Renderer
 from sim.camera.scene import instances
 from sim.site.classes import CLASSES as OF_THE_SIMULATOR
 from sim.site.plan import solids
+from tests.known import known
 from tools.train.boxes import boxes, hulls, whole_box
 from tools.train.budget import CLASSES, MIN_SCORE, SAME
 from tools.train.evaluation import KEY as KEY_WRITTEN
@@ -69,8 +70,7 @@ def test_frames_are_repeatable_and_boxes_lie_in_them(home: Home) -> None:
     again = home_frames(home, "x", 2)
     assert [frame.jpeg for frame in frames] == [frame.jpeg for frame in again]
     for frame in frames:
-        picture = cv2.imdecode(np.frombuffer(frame.jpeg, np.uint8), cv2.IMREAD_COLOR)
-        assert picture is not None
+        picture = known(cv2.imdecode(np.frombuffer(frame.jpeg, np.uint8), cv2.IMREAD_COLOR))
         assert picture.shape == (240, 320, 3)
         low, high = frame.things[:, 1:3], frame.things[:, 3:5]
         assert (low >= 0).all()
