@@ -57,13 +57,10 @@ def test_one_that_is_refused_has_its_code_its_shapes_and_the_layouts(tmp_path: P
     assert any(ord(letter) > 0x2E80 for letter in found.found.zh)
 
 
-def test_settings_that_can_t_be_read_are_said(tmp_path: Path) -> None:
-    assert looked(tmp_path, "modle = 1").verdict is HealthVerdict.FAIL
-
-
-def test_settings_that_can_t_be_read_have_their_own_cure(tmp_path: Path) -> None:
-    (tmp_path / "settings.toml").write_text("[mission]\nbogus = 1\n")
-    found = detector(tmp_path, RobotDescription())
+@pytest.mark.parametrize("text", ["[vision]\nmodle = 1\n", "[mission]\nbogus = 1\n"])
+def test_settings_that_can_t_be_read_have_their_own_cure(tmp_path: Path, text: str) -> None:
+    (tmp_path / "settings.toml").write_text(text)
+    found = detector(tmp_path, RobotDescription.model_validate({"camera": {"kind": "sim"}}))
     assert found.verdict is HealthVerdict.FAIL
     assert known(found.fix).en == "mend settings.toml"
 

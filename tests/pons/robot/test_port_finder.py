@@ -23,7 +23,6 @@ from tests.known import known
 from tests.pons.robot.twin_ports import (
     BASES,
     PlayedBase,
-    PlayedController,
     PlayedLidar,
     PlayedNoise,
     entry,
@@ -32,7 +31,6 @@ from tests.pons.robot.twin_ports import (
 from wire.drive_config import DRIVE_KINDS
 from wire.lidar_config import LidarConfig
 
-BASES_OF_OTHERS = sorted(BASES.keys() - {"pons_mcu"})
 LIDARS = {"_".join(filter(None, key)): key for key in LIDAR_TWINS}
 QUESTIONS = sorted({probe.question for probe in PROBES if probe.question})
 TURNING = "rplidar that turns"
@@ -44,28 +42,20 @@ def found() -> Iterator[dict[str, PortFinding]]:
     with TemporaryDirectory(prefix="pons-find-") as folder:
         paths = {name: Path(folder, name.replace(" ", "_")) for name in LIDARS}
         devices = {name: PlayedLidar(paths[name], *key) for name, key in LIDARS.items()}
-        paths |= {
-            name: Path(folder, name) for name in ("mcu", "unknown", "silent", *BASES_OF_OTHERS)
-        }
+        paths |= {name: Path(folder, name) for name in ("unknown", "silent", *BASES)}
         paths[TURNING] = Path(folder, "turning")
         turning = PlayedLidar(paths[TURNING], "rplidar", "a1")
         turning.twin.firmware.tick(b"\xa5\x20", 0.0, lambda angles: (1.0,) * len(angles))
-        others = [
-            PlayedController(paths["mcu"]), PlayedNoise(paths["unknown"], 20),
-            PlayedNoise(paths["silent"], 0), turning,
-            *(PlayedBase(paths[kind], kind) for kind in BASES_OF_OTHERS),
-        ]  # fmt: skip
-        with played([*devices.values(), *others]):
+        noises = PlayedNoise(paths["unknown"], 20), PlayedNoise(paths["silent"], 0)
+        bases = {kind: PlayedBase(paths[kind], kind) for kind in BASES}
+        with played([*devices.values(), turning, *noises, *bases.values()]):
             findings = question_ports([entry(path) for path in paths.values()])
             found = dict(zip(paths, findings, strict=True))
             for name in (name for name in LIDARS if found[name].code == "port_silent"):
                 # So many threads at once may starve one; alone it has to answer.
                 (found[name],) = question_ports([entry(paths[name])])
         yield found
-        assert isinstance(others[0], PlayedController)
-        assert not others[0].moved
-        bases = [one for one in others if isinstance(one, PlayedBase)]
-        assert [one.moved for one in bases] == [False] * len(BASES_OF_OTHERS)
+        assert [kind for kind, base in bases.items() if base.moved] == []
 
 
 @pytest.mark.parametrize("name", sorted(LIDARS))
@@ -80,13 +70,10 @@ def test_each_lidar_is_named_with_its_model(name: str, found: dict[str, PortFind
 
 
 def test_a_motor_controller_is_named_with_its_battery(found: dict[str, PortFinding]) -> None:
-    one = found["mcu"]
-    assert (one.code, one.part, one.kind) == ("port_found", "drive", "pons_mcu")
-    assert "battery" in known(one.answer).words
-    assert "ticks_per_turn" in known(one.answer).missing
+    assert "battery" in known(found["pons_mcu"].answer).words
 
 
-@pytest.mark.parametrize("kind", BASES_OF_OTHERS)
+@pytest.mark.parametrize("kind", sorted(BASES))
 def test_each_base_is_named(kind: str, found: dict[str, PortFinding]) -> None:
     one = found[kind]
     assert (one.code, one.part, one.kind) == ("port_found", "drive", kind), one
