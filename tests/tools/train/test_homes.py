@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from random import Random
-from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
@@ -15,6 +14,7 @@ from planner.perception.detect.detector import MIN_SCORE as BELIEVED
 from planner.settings.vision import VisionSettings
 from sim.camera import Appearance, Renderer
 from sim.camera.scene import instances
+from sim.site import Home
 from sim.site.classes import CLASSES as OF_THE_SIMULATOR
 from sim.site.plan import solids
 from tests.known import known
@@ -25,9 +25,6 @@ from tools.train.frames import home_frames
 from tools.train.homes import drawn_home
 from tools.train.views import CLEAR_M, Views, targets
 from wire import CameraConfig, Pose2
-
-if TYPE_CHECKING:
-    from sim.site import Home
 
 Whole = tuple[float, float, float, float] | None
 
