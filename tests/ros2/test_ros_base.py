@@ -15,7 +15,6 @@ from ros2.ros_base import NOTHING_MADE, YOUNG_S, RosBase, TopicArrivals
 from ros2.trouble import STARTING, Ros2Trouble
 from tests.known import known
 from tests.ros2.words import (
-    ROS_S,
     STAMPED,
     command,
     driven,
@@ -257,10 +256,6 @@ def test_no_hole_in_a_good_message_raises(name: str, step: int, value: object) -
     words = json.loads(SAID[name])
     words[sorted(words)[step % len(words)]] = value
     driven(10.0).hear(name, json.dumps(words).encode(), 10.1)
-
-
-def test_stamps_are_on_the_robots_clock() -> None:
-    assert json.loads(odometry(1.0))["stamp_s"] == 1.0 + ROS_S
 
 
 def test_the_rate_is_that_of_the_last_two_seconds() -> None:

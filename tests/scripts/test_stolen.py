@@ -6,15 +6,12 @@ import os
 import signal
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from scripts import stolen
 from tests.known import known
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 LINE = "cpu  {busy} 0 0 0 0 0 0 {stolen} 0 0\ncpu0 1 1 1 1 1 1 1 1 0 0\n"
 
