@@ -89,7 +89,7 @@ def test_a_turned_knob_changes_the_scan_and_nothing_else(
 
 
 @given(st.integers(0, 10**6))
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=3, deadline=None)
 def test_a_seed_gives_one_world_bit_for_bit(seed: int) -> None:
     domain = draw_domain(seed)
     one, other = robot_in(domain), robot_in(domain)

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from math import pi
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 
-from sim import SimRobot
+from sim import Report, SimRobot
 from tests.known import known
-from wire import DriveCommand, Pose2, SimControl, SimFault
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from sim import Report
-    from wire import DriveState, Imu, Scan, SimTruth
+from wire import DriveCommand, DriveState, Imu, Pose2, Scan, SimControl, SimFault, SimTruth
 
 MIDDLE = Pose2(1.5, 1.9, pi / 2)
 SPEED_RADPS = 3.0
