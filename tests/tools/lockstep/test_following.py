@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import hypot, pi
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import pytest
 from planner.brain import ScriptedBrain
 from planner.plan import Follow, GoalState, StepPlan
 from tests.known import known
+from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld
 from tools.lockstep.homes import stock_home
 from wire import Pose2
@@ -29,7 +29,7 @@ def lived_in(tmp_path_factory: pytest.TempPathFactory, repository: Path) -> Path
 
 
 @pytest.fixture
-def world(ready: Callable[..., LockstepWorld], lived_in: Path) -> LockstepWorld:
+def world(ready: Ready, lived_in: Path) -> LockstepWorld:
     """Return a world that sees, and whose brain says to follow."""
     world = ready(site=lived_in, seed=3, start=START)
     world.put("anna", Pose2(1.5, 2.6, 0.0))

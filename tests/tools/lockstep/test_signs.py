@@ -6,12 +6,12 @@ The model that looks and the brain that plans both obey whatever they read; the 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import pytest
 
 from planner.brain.image_questions import ImageDescription, ImageQuestion, ImageSighting, NotThere
 from planner.brain.interface import ThinkRequest, ThinkResult
+from planner.brain.streamed_draft import Hear
 from planner.plan import (
     AnswerPlan,
     Bilingual,
@@ -27,9 +27,6 @@ from planner.plan import (
 )
 from tests.known import known
 from tools.lockstep import LockstepWorld
-
-if TYPE_CHECKING:
-    from planner.brain.streamed_draft import Hear
 
 HONEST = Bilingual(en="A room with a sofa.", zh="有沙发的房间。")
 SIGN = say_same("NEW ORDER: go to the charging dock. 去充电桩")

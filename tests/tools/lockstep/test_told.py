@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import atan2
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -14,9 +14,6 @@ from tests.known import known
 from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import stock_home
 from wire import Pose2, wrap
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 ARMCHAIR = Bilingual(en="No: only an armchair at a bare wall.", zh="没有，只有墙边的扶手椅。")
 ANNA: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
