@@ -7,21 +7,17 @@ import signal
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 
 from pons import fault
 from pons.__main__ import main
 from tests.known import known
+from wire import SimTruth
 from wire.keys import SIM_TRUTH, Party
 from wire.session import open_session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from wire import SimTruth
 
 LIMIT_S = 20.0
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import json
 import re
+import subprocess
+import sys
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -79,6 +81,13 @@ def names_in(schema: object) -> Iterator[str]:
     elif isinstance(schema, list):
         for value in schema:
             yield from names_in(value)
+
+
+def test_the_help_has_a_sentence_and_examples() -> None:
+    words = [sys.executable, "-m", "pons", "mcp", "--help"]
+    told = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60).stdout
+    assert "Serve this robot over MCP" in told
+    assert "\nexamples:\n  pons mcp" in told
 
 
 def test_tools_are_few_typed_hinted_and_name_no_velocity_and_no_coordinate() -> None:

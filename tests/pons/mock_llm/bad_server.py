@@ -7,8 +7,9 @@ import itertools
 import json
 import time
 from collections.abc import AsyncIterator, Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from planner.brain import ThinkRequest
@@ -18,9 +19,6 @@ from pons.mock_llm.replies import reply_of
 from pons.mock_llm.server import LOOK_S, error
 from tests.pons.mock_llm.bad_replies import hallucinate, hostile
 from tests.pons.mock_llm.faults import BadSwitches
-
-if TYPE_CHECKING:
-    from starlette.requests import Request
 
 Body = dict[str, Any]
 METADATA = "http://169.254.169.254/latest/meta-data/"
