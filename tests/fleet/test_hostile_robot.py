@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import psutil
 import pytest
 
+from tests.fleet.conftest import RunningFleet, StubRobot
 from tests.fleet.judge import CLEAN, judge
 from tests.known import known
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.fleet.conftest import RunningFleet, StubRobot
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 EVIL = ("html", "endless", "slow", "never", "cursor", "pages", "goals", "status", "another")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import itertools
 import os
 import re
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
@@ -15,9 +16,6 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 from scripts.browser import CHROMIUM, chromium
 from tests.fleet.conftest import ROOT, RunningFleet, StubRobot, until
 from tests.known import known
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(300)]
 
@@ -44,16 +42,13 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture
-def house(tmp_path: Path) -> Iterator[RunningFleet]:
+def house(file_fleet: RunningFleet) -> RunningFleet:
     """Return a fleet whose page asks for a token."""
-    running = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
     tokens = {"PONS_FLEET_TOKEN": OPERATOR, "PONS_FLEET_VIEWER_TOKEN": VIEWER}
-    running.environment |= tokens
-    running.client.headers["authorization"] = f"Bearer {OPERATOR}"
-    running.start("fleet.watch.SILENT_S = 1.0", "fleet.page_api.AGAIN_S = 0.5")
-    yield running
-    running.kill()
-    running.client.close()
+    file_fleet.environment |= tokens
+    file_fleet.client.headers["authorization"] = f"Bearer {OPERATOR}"
+    file_fleet.start("fleet.watch.SILENT_S = 1.0", "fleet.page_api.AGAIN_S = 0.5")
+    return file_fleet
 
 
 @pytest.fixture

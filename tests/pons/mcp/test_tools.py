@@ -5,8 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 import re
-import subprocess
-import sys
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -22,6 +20,7 @@ from planner.brain.scripted import Reply
 from planner.orders.factory import standing_orders_of
 from planner.settings import OrderSettings
 from planner.state_database import StateDatabase
+from pons.__main__ import main
 from pons.mcp.http_door import AgentsOnly, build_app
 from pons.mcp.planner_door import TOKEN, PlannerDoor
 from pons.mcp.server import build_server
@@ -83,9 +82,11 @@ def names_in(schema: object) -> Iterator[str]:
             yield from names_in(value)
 
 
-def test_the_help_has_a_sentence_and_examples() -> None:
-    words = [sys.executable, "-m", "pons", "mcp", "--help"]
-    told = subprocess.run(words, capture_output=True, text=True, check=True, timeout=60).stdout
+def test_the_help_has_a_sentence_and_examples(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["mcp", "--help"])
+    told = capsys.readouterr().out
+    assert ended.value.code == 0
     assert "Serve this robot over MCP" in told
     assert "\nexamples:\n  pons mcp" in told
 
