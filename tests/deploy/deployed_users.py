@@ -7,15 +7,12 @@ installed. Only root can start processes so.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 from pons.settings import CHECKOUT
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 UNITS = CHECKOUT / "deploy" / "systemd"
 INSTALLED = "/var/lib"

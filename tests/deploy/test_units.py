@@ -96,51 +96,35 @@ def test_every_service_is_hardened_and_does_not_repeat_a_refusal(name: str) -> N
         assert service[setting] == [value], setting
 
 
-def test_the_lidars_service_is_as_hardened_and_opens_serial_ports_alone() -> None:
-    lidar, other = (unit(UNITS / f"pons-{name}.service") for name in ("lidar", "localization"))
-    own = {"ExecStart", "User", "SupplementaryGroups", "MemoryMax", "DevicePolicy", "DeviceAllow"}
-    kept = {name: value for name, value in other["Service"].items() if name not in own}
-    kept.pop("PrivateDevices")
-    assert {n: v for n, v in lidar["Service"].items() if n not in own} == kept
-    assert lidar["Service"]["DevicePolicy"] == ["closed"]
-    assert all(one.startswith("char-tty") for one in lidar["Service"]["DeviceAllow"])
-    assert "python -m sensors.lidar --home /var/lib/pons" in lidar["Service"]["ExecStart"][0]
-    assert lidar["Install"]["WantedBy"] == ["pons.target"]
+OF_DEVICES = {"SupplementaryGroups", "DevicePolicy", "DeviceAllow", "PrivateDevices"}
 
 
-def test_the_gyros_service_is_the_lidars_but_for_its_devices() -> None:
-    gyro, lidar = (unit(UNITS / f"pons-{name}.service") for name in ("imu", "lidar"))
-    own = {"ExecStart", "User", "SupplementaryGroups", "DeviceAllow"}
-    assert {n: v for n, v in gyro["Service"].items() if n not in own} == {
-        n: v for n, v in lidar["Service"].items() if n not in own
+@pytest.mark.parametrize(
+    ("name", "other", "module", "user", "devices"),
+    [
+        ("lidar", "localization", "sensors.lidar", "pons-lidar", "ttyUSB ttyACM ttyAMA ttyS"),
+        ("imu", "localization", "sensors.imu", "pons-imu", "i2c"),
+        ("uvc", "camera", "sensors.camera", "pons-camera", "video4linux media usb_device"),
+        ("ros2", "localization", "ros2", "pons-ros2", ""),
+    ],
+)
+def test_a_service_beside_is_hardened_as_another_and_opens_its_own_devices_alone(
+    name: str, other: str, module: str, user: str, devices: str
+) -> None:
+    described = unit(UNITS / f"pons-{name}.service")
+    service, hardened = described["Service"], unit(UNITS / f"pons-{other}.service")["Service"]
+    own = {"ExecStart", "User", "MemoryMax"} | (OF_DEVICES if devices else set())
+    assert {n: v for n, v in service.items() if n not in own} == {
+        n: v for n, v in hardened.items() if n not in own
     }
-    assert gyro["Service"]["DeviceAllow"] == ["char-i2c rw"]
-    assert "python -m sensors.imu --home /var/lib/pons" in gyro["Service"]["ExecStart"][0]
-    assert gyro["Install"]["WantedBy"] == ["pons.target"]
-
-
-def test_the_service_of_a_camera_of_metal_opens_video_alone() -> None:
-    camera, other = (unit(UNITS / f"pons-{name}.service") for name in ("uvc", "camera"))
-    own = {"ExecStart", "SupplementaryGroups", "MemoryMax", "DevicePolicy", "DeviceAllow"}
-    kept = {name: value for name, value in other["Service"].items() if name not in own}
-    kept.pop("PrivateDevices")
-    assert {n: v for n, v in camera["Service"].items() if n not in own} == kept
-    assert camera["Service"]["User"] == ["pons-camera"], "the door's folder is that user's"
-    assert camera["Service"]["DevicePolicy"] == ["closed"]
-    allowed = ["char-video4linux rw", "char-media rw", "char-usb_device rw"]
-    assert camera["Service"]["DeviceAllow"] == allowed
-    assert "python -m sensors.camera --home /var/lib/pons" in camera["Service"]["ExecStart"][0]
-    assert camera["Install"]["WantedBy"] == ["pons.target"]
-
-
-def test_the_service_of_a_ros2_base_is_hardened_as_one_that_has_no_devices() -> None:
-    ros2, other = (unit(UNITS / f"pons-{name}.service") for name in ("ros2", "localization"))
-    own = {"ExecStart", "User", "MemoryMax"}
-    assert {n: v for n, v in ros2["Service"].items() if n not in own} == {
-        n: v for n, v in other["Service"].items() if n not in own
-    }
-    assert "python -m ros2 --home /var/lib/pons" in ros2["Service"]["ExecStart"][0]
-    assert ros2["Install"]["WantedBy"] == ["pons.target"]
+    assert service["User"] == [user], "a door's folder is that user's"
+    assert service.get("DeviceAllow", []) == [f"char-{device} rw" for device in devices.split()]
+    assert "MemoryMax" in service
+    if devices:
+        assert service["DevicePolicy"] == ["closed"]
+        assert "PrivateDevices" not in service
+    assert f"python -m {module} --home /var/lib/pons" in service["ExecStart"][0]
+    assert described["Install"]["WantedBy"] == ["pons.target"]
 
 
 def test_the_fleets_service_is_hardened_as_the_planner_and_of_no_group_of_a_robots() -> None:

@@ -28,6 +28,7 @@ from tests.deploy.deployed_users import (
     numbers_of,
 )
 from tests.deploy.installed import ROOT
+from tests.known import known
 from wire.doors import BRIDGE_DOOR, DOORS, Door
 from wire.keys import Party
 
@@ -70,8 +71,7 @@ class Hearer(threading.Thread):
         self.start()
 
     def run(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
+        for line in known(self.process.stdout):
             if line == "ready\n":
                 self.ready.set()
             else:

@@ -13,6 +13,7 @@ from devices import pons_mcu
 from devices.pons_mcu import McuCommand, McuReader, McuState, encode_command
 from sim.twin.pons_mcu import PonsMcuFirmware
 from tests.firmware.core import Core, Encoder
+from tests.known import known
 from tests.wire.examples import EXAMPLES
 from wire import DriveState
 from wire.drive_config import DriveConfig
@@ -156,8 +157,7 @@ def test_a_wheel_that_stands_or_turns_back_loses_the_torque(
     host_library: Path, ticks_a_period: int
 ) -> None:
     core = Core(host_library)
-    after_ms = run_until_trip(core, ticks_a_period)
-    assert after_ms is not None
+    after_ms = known(run_until_trip(core, ticks_a_period))
     assert after_ms <= 600
     assert core.report(after_ms * 1000).bits & pons_mcu.TRIPPED
 
@@ -173,8 +173,7 @@ def test_too_much_current_takes_the_torque(host_library: Path) -> None:
 
 def test_after_a_trip_the_host_must_take_the_torque_away_itself(host_library: Path) -> None:
     core = Core(host_library)
-    after_ms = run_until_trip(core, 0)
-    assert after_ms is not None
+    after_ms = known(run_until_trip(core, 0))
     now_us = after_ms * 1000
     core.hear(encode_command(replace(GO, seq=10_000)), now_us)
     assert not core.control(now_us).torque

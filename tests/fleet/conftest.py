@@ -10,9 +10,10 @@ import sqlite3
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Self
 
 import httpx
 import pytest
@@ -21,9 +22,7 @@ from fleet.robots import add_robot
 from fleet.service import own_home
 from fleet.store import FleetStore
 from tests.fleet.postgres import Cluster, running_cluster
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+from tests.known import known
 
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE_S = 90.0
@@ -62,8 +61,7 @@ class StubRobot:
         self.process = subprocess.Popen(
             [*words, str(self.port)], cwd=ROOT, stdout=subprocess.PIPE, text=True
         )
-        assert self.process.stdout is not None
-        self.process.stdout.readline()
+        known(self.process.stdout).readline()
 
     def kill(self) -> None:
         self.process.kill()
@@ -99,6 +97,13 @@ class RunningFleet:
             base_url=f"http://127.0.0.1:{self.port}", trust_env=False, timeout=20.0
         )
         self.process: subprocess.Popen[bytes] | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.kill()
+        self.client.close()
 
     def run(self, *words: str) -> subprocess.CompletedProcess[str]:
         """Run ``pons fleet`` with these words."""
@@ -182,6 +187,10 @@ class RunningFleet:
         until(lambda: names <= {name for name, at in self.states().items() if at == "ready"})
 
 
+def fleet_on_file(folder: Path) -> RunningFleet:
+    return RunningFleet(folder / "home", f"sqlite:///{folder / 'fleet.sqlite'}")
+
+
 @pytest.fixture
 def make_robot(tmp_path: Path) -> Iterator[Callable[[str], StubRobot]]:
     """Return a maker of robots; all end with the test."""
@@ -207,31 +216,25 @@ def postgres() -> Iterator[Cluster]:
 def fleet(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningFleet]:
     """Return a fleet on SQLite that runs for all stories of a file; each names its own robots."""
     folder = tmp_path_factory.mktemp("fleet")
-    running = RunningFleet(folder / "home", f"sqlite:///{folder / 'fleet.sqlite'}")
-    running.start("fleet.watch.SILENT_S = 2.0")
-    yield running
-    running.kill()
-    running.client.close()
+    with fleet_on_file(folder) as running:
+        running.start("fleet.watch.SILENT_S = 2.0")
+        yield running
 
 
 @pytest.fixture
 def file_fleet(tmp_path: Path) -> Iterator[RunningFleet]:
     """Return a fleet of its own on a file, not yet started."""
-    made = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
-    yield made
-    made.kill()
-    made.client.close()
+    with fleet_on_file(tmp_path) as made:
+        yield made
 
 
 @pytest.fixture(params=["sqlite", "postgres"])
 def own_fleet(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[RunningFleet]:
     """Return a fleet without robots, not yet started, on each kind of database."""
     if request.param == "sqlite":
-        database = f"sqlite:///{tmp_path / 'fleet.sqlite'}"
+        made = fleet_on_file(tmp_path)
     else:
         cluster: Cluster = request.getfixturevalue("postgres")
-        database = cluster.make_database()
-    running = RunningFleet(tmp_path / "home", database)
-    yield running
-    running.kill()
-    running.client.close()
+        made = RunningFleet(tmp_path / "home", cluster.make_database())
+    with made as running:
+        yield running

@@ -30,6 +30,7 @@ from fleet.service import own_home
 from fleet.store import FleetStore
 from tests.fleet.conftest import ROOT, RunningFleet, until
 from tests.fleet.robot_stub import make_server
+from tests.known import known
 
 ROBOTS = 30
 REST_S, STEADY_S, STOPS = 30.0, 40.0, 20
@@ -96,8 +97,7 @@ def measure_stops(fleet: RunningFleet, service: psutil.Process) -> str:
 
 def report(fleet: RunningFleet, folder: Path, orders: int) -> None:
     """Measure and print."""
-    assert fleet.process is not None
-    service = psutil.Process(fleet.process.pid)
+    service = psutil.Process(known(fleet.process).pid)
     until(lambda: list(fleet.states().values()).count("ready") >= ROBOTS - 1, 600.0)
     time.sleep(5.0)
     rest = share_of_core(service, REST_S)
@@ -154,8 +154,7 @@ def main() -> None:
         fleet = RunningFleet(folder / "home", f"sqlite:///{folder / 'fleet.sqlite'}")
         fleet.client.timeout = httpx.Timeout(120.0)
         try:
-            assert doors.stdout is not None
-            add_all(fleet, ports := doors.stdout.readline().split())
+            add_all(fleet, ports := known(doors.stdout).readline().split())
             fleet.start()
             if given.evil is not None:
                 httpx.post(f"http://127.0.0.1:{int(ports[-1])}/stub", json={"evil": given.evil})

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,9 +14,6 @@ from fleet.link import FleetLink, RobotAway
 from fleet.pin import Pin
 from tests.planner.api.test_real_missions import served
 from tests.planner.mission.live import run
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 GOAL: dict[str, Any] = {"id": "g1", "state": "running", "plan": None, "outcome": None}
 

@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import sqlite3
+from collections.abc import Callable
 from contextlib import closing
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
-from tests.fleet.conftest import RunningFleet
+from tests.fleet.conftest import RunningFleet, StubRobot, fleet_on_file
 from tests.fleet.judge import CLEAN, judge
 from tests.fleet.postgres import running_cluster
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from pathlib import Path
-
-    from tests.fleet.conftest import StubRobot
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 
@@ -53,7 +48,6 @@ def test_a_copy_of_the_file_by_sqlites_backup(
     tmp_path: Path, make_robot: Callable[[str], StubRobot]
 ) -> None:
     file, copy = tmp_path / "fleet.sqlite", tmp_path / "copy.sqlite"
-    fleet = RunningFleet(tmp_path / "home", f"sqlite:///{file}")
 
     def back_up() -> None:
         with closing(sqlite3.connect(file)) as live, closing(sqlite3.connect(copy)) as kept:
@@ -64,11 +58,8 @@ def test_a_copy_of_the_file_by_sqlites_backup(
             old.unlink(missing_ok=True)
         copy.rename(file)
 
-    try:
+    with fleet_on_file(tmp_path) as fleet:
         run_on(fleet, make_robot("r1"), back_up, put_back)
-    finally:
-        fleet.kill()
-        fleet.client.close()
 
 
 def test_a_dump_of_postgres(tmp_path: Path, make_robot: Callable[[str], StubRobot]) -> None:
@@ -76,7 +67,6 @@ def test_a_dump_of_postgres(tmp_path: Path, make_robot: Callable[[str], StubRobo
         database = cluster.make_database()
         name = database.split("@/")[1].partition("?")[0]
         dump = str(cluster.place / "dump")
-        fleet = RunningFleet(tmp_path / "home", database)
 
         def back_up() -> None:
             cluster.run("pg_dump", "-Fc", "-f", dump, name)
@@ -86,8 +76,5 @@ def test_a_dump_of_postgres(tmp_path: Path, make_robot: Callable[[str], StubRobo
             cluster.run("createdb", name)
             cluster.run("pg_restore", "-d", name, dump)
 
-        try:
+        with RunningFleet(tmp_path / "home", database) as fleet:
             run_on(fleet, make_robot("r1"), back_up, put_back)
-        finally:
-            fleet.kill()
-            fleet.client.close()

@@ -5,23 +5,19 @@ from __future__ import annotations
 import resource
 import time
 from collections import Counter
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
 from fleet.answers import read_card
 from fleet.errors import FleetError
-from tests.fleet.conftest import RunningFleet, until
+from tests.fleet.conftest import RunningFleet, StubRobot, until
 from tests.fleet.judge import CLEAN, judge
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from tests.fleet.conftest import StubRobot
-
-    MakeRobot = Callable[[str], StubRobot]
+MakeRobot = Callable[[str], StubRobot]
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import signal
 import time
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -16,17 +18,11 @@ import sqlalchemy as sa
 from fleet.carrier import CarrierLock
 from fleet.store import FleetStore
 from fleet.tables import missions, robots
-from tests.fleet.conftest import RunningFleet, until
+from tests.fleet.conftest import RunningFleet, StubRobot, until
 from tests.fleet.judge import CLEAN, judge
-from tests.fleet.postgres import running_cluster
+from tests.fleet.postgres import Cluster, running_cluster
 from tests.fleet.test_store import R1, give
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from tests.fleet.conftest import StubRobot
-    from tests.fleet.postgres import Cluster
+from tests.known import known
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 
@@ -49,11 +45,9 @@ def stands_by(service: RunningFleet) -> bool:
 def pair(postgres: Cluster, tmp_path: Path) -> Iterator[Pair]:
     """Return two services on one database and one folder, not yet started."""
     database = postgres.make_database()
-    made = (RunningFleet(tmp_path / "home", database), RunningFleet(tmp_path / "home", database))
-    yield made
-    for service in made:
-        service.kill()
-        service.client.close()
+    home = tmp_path / "home"
+    with RunningFleet(home, database) as first, RunningFleet(home, database) as second:
+        yield first, second
 
 
 def start(pair: Pair, *settings: str) -> Pair:
@@ -197,12 +191,11 @@ def test_a_carrier_that_froze_stands_by_when_it_wakes(
     carrier.await_ready(robot)
     (mission,) = carrier.give("go to the hall")
     carrier.await_state(mission["id"], "at_robot")
-    assert carrier.process is not None
-    carrier.process.send_signal(signal.SIGSTOP)
+    known(carrier.process).send_signal(signal.SIGSTOP)
     try:
         until(lambda: carries(standby))
     finally:
-        carrier.process.send_signal(signal.SIGCONT)
+        known(carrier.process).send_signal(signal.SIGCONT)
     until(lambda: stands_by(carrier))
     robot.rule(work_s=0.0)
     carrier.await_state(mission["id"], "succeeded")
@@ -212,35 +205,34 @@ def test_a_carrier_that_froze_stands_by_when_it_wakes(
 def test_postgres_away_refuses_orders_with_a_code_stops_robots_and_goes_on_when_it_is_back(
     tmp_path: Path, make_robot: Callable[[str], StubRobot]
 ) -> None:
-    with running_cluster() as cluster:
-        fleet, robot = RunningFleet(tmp_path / "home", cluster.make_database()), make_robot("r1")
-        try:
-            fleet.add(robot)
-            fleet.start()
-            robot.rule(work_s=600.0)
-            fleet.await_ready(robot)
-            (mission,) = fleet.give("go to the hall")
-            fleet.await_state(mission["id"], "at_robot")
-            (waiting,) = fleet.give("go to the kitchen")
-            cluster.stop()
-            refused = fleet.client.post("/v1/missions", json={"text": "go to the hall"})
-            assert (refused.status_code, refused.json()["code"]) == (503, "store_unavailable")
-            told = fleet.client.post("/v1/stop").json()
-            assert told["confirmed"] == ["r1"]
-            assert robot.acts("stop") == 1
-            cluster.start()
-            fleet.await_state(waiting["id"], "cancelled")  # what was ordered before the stop
-            assert fleet.client.get(f"/v1/stop/{told['id']}").json()["confirmed"] == ["r1"]
-            robot.rule(work_s=0.0, resume=True)
-            fleet.await_state(mission["id"], "succeeded")
-            assert (carries(fleet), robot.acts("stop")) == (True, 1)
-            (after,) = fleet.give("go to the kitchen")
-            fleet.await_state(after["id"], "succeeded")
-            ids = [mission["id"], after["id"]]
-            assert judge(ids, [robot.journal], fleet.database) == CLEAN
-        finally:
-            fleet.kill()
-            fleet.client.close()
+    robot = make_robot("r1")
+    with (
+        running_cluster() as cluster,
+        RunningFleet(tmp_path / "home", cluster.make_database()) as fleet,
+    ):
+        fleet.add(robot)
+        fleet.start()
+        robot.rule(work_s=600.0)
+        fleet.await_ready(robot)
+        (mission,) = fleet.give("go to the hall")
+        fleet.await_state(mission["id"], "at_robot")
+        (waiting,) = fleet.give("go to the kitchen")
+        cluster.stop()
+        refused = fleet.client.post("/v1/missions", json={"text": "go to the hall"})
+        assert (refused.status_code, refused.json()["code"]) == (503, "store_unavailable")
+        told = fleet.client.post("/v1/stop").json()
+        assert told["confirmed"] == ["r1"]
+        assert robot.acts("stop") == 1
+        cluster.start()
+        fleet.await_state(waiting["id"], "cancelled")  # what was ordered before the stop
+        assert fleet.client.get(f"/v1/stop/{told['id']}").json()["confirmed"] == ["r1"]
+        robot.rule(work_s=0.0, resume=True)
+        fleet.await_state(mission["id"], "succeeded")
+        assert (carries(fleet), robot.acts("stop")) == (True, 1)
+        (after,) = fleet.give("go to the kitchen")
+        fleet.await_state(after["id"], "succeeded")
+        ids = [mission["id"], after["id"]]
+        assert judge(ids, [robot.journal], fleet.database) == CLEAN
 
 
 def test_an_outage_of_postgres_longer_than_a_minute_ends_as_a_short_one(
@@ -248,25 +240,23 @@ def test_an_outage_of_postgres_longer_than_a_minute_ends_as_a_short_one(
 ) -> None:
     """A goal ends meanwhile, another is cut in its offer; the engine's longest pause is 90 s."""
     robots = [make_robot("r1"), make_robot("r2")]
-    with running_cluster() as cluster:
-        fleet = RunningFleet(tmp_path / "home", cluster.make_database())
-        try:
-            fleet.add(*robots)
-            fleet.start()
-            robots[0].rule(work_s=600.0)
-            fleet.await_ready(*robots)
-            given = [fleet.give("r1: go to the hall")[0]["id"]]
-            fleet.await_state(given[0], "at_robot")
-            given += [fleet.give("r2: go to the hall")[0]["id"]]
-            cluster.stop()
-            robots[0].rule(work_s=0.0)
-            time.sleep(65.0)
-            refused = fleet.client.post("/v1/missions", json={"text": "go to the hall"})
-            assert (refused.status_code, refused.json()["code"]) == (503, "store_unavailable")
-            cluster.start()
-            until(lambda: {fleet.mission(each)["state"] for each in given} == {"succeeded"}, 200.0)
-            assert carries(fleet)
-            assert judge(given, [robot.journal for robot in robots], fleet.database) == CLEAN
-        finally:
-            fleet.kill()
-            fleet.client.close()
+    with (
+        running_cluster() as cluster,
+        RunningFleet(tmp_path / "home", cluster.make_database()) as fleet,
+    ):
+        fleet.add(*robots)
+        fleet.start()
+        robots[0].rule(work_s=600.0)
+        fleet.await_ready(*robots)
+        given = [fleet.give("r1: go to the hall")[0]["id"]]
+        fleet.await_state(given[0], "at_robot")
+        given += [fleet.give("r2: go to the hall")[0]["id"]]
+        cluster.stop()
+        robots[0].rule(work_s=0.0)
+        time.sleep(65.0)
+        refused = fleet.client.post("/v1/missions", json={"text": "go to the hall"})
+        assert (refused.status_code, refused.json()["code"]) == (503, "store_unavailable")
+        cluster.start()
+        until(lambda: {fleet.mission(each)["state"] for each in given} == {"succeeded"}, 200.0)
+        assert carries(fleet)
+        assert judge(given, [robot.journal for robot in robots], fleet.database) == CLEAN

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 from fleet.records import GOAL_ENDED
 from fleet.watch import CLOSING, CONFLICT
 from tests.planner.api.test_real_missions import served
 from tests.planner.mission.live import run
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_a_closed_key_makes_no_mission_and_a_known_one_is_told(tmp_path: Path) -> None:

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING
 
+import pytest
 from sqlalchemy.exc import OperationalError
 
 import fleet.desk
 from fleet.desk import keep_going
-
-if TYPE_CHECKING:
-    import pytest
 
 
 def test_a_loop_that_fails_begins_again_until_it_is_cancelled(

@@ -9,7 +9,8 @@ import json
 import random
 from collections import Counter
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, cast
+from pathlib import Path
+from typing import Any, cast
 
 import httpx
 
@@ -21,9 +22,6 @@ from tests.planner.api.test_real_missions import ACCESS
 from tests.planner.mission import live
 from tests.planner.mission.live import run
 from wire import Grant, Heartbeat, Hello, Stop, Waypoints
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 TOKEN, REQUESTS, MAX_SPEED_MPS = "d" * 20, 300, 0.5
 DISPATCHER = Person("fleet", "Fleet", Role.DISPATCHER, "2026-01-01T00:00:00+00:00")

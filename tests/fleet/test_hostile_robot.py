@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import psutil
 import pytest
 
+from tests.fleet.conftest import RunningFleet, StubRobot
 from tests.fleet.judge import CLEAN, judge
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.fleet.conftest import RunningFleet, StubRobot
+from tests.known import known
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 EVIL = ("html", "endless", "slow", "never", "cursor", "pages", "goals", "status", "another")
@@ -29,8 +26,7 @@ def test_hostile_robots_harm_no_other(
     fleet.add(*honest, *evil)
     fleet.start("fleet.watch.SILENT_S = 2.0")
     fleet.await_ready(*honest, *evil)
-    assert fleet.process is not None
-    service = psutil.Process(fleet.process.pid)
+    service = psutil.Process(known(fleet.process).pid)
     first = fleet.give("nearest: go to the hall")  # the first choice of all loads scipy
     fleet.await_state(first[0]["id"], "succeeded")
     for robot in evil:

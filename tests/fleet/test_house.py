@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from pydantic import ValidationError
 
 from fleet.addressee import Addressee
 from fleet.house import HouseRules, spent_today
+from fleet.store import FleetStore
 from tests.fleet.test_store import give, store
-
-if TYPE_CHECKING:
-    from fleet.store import FleetStore
 
 __all__ = ["store"]
 

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterator
 from datetime import UTC, datetime, timedelta
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
-from tests.fleet.conftest import until
+from tests.fleet.conftest import RunningFleet, StubRobot, until
 from tests.fleet.judge import judge
 
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
-    from tests.fleet.conftest import RunningFleet, StubRobot
-
-    MakeRobot = Callable[[str], StubRobot]
+MakeRobot = Callable[[str], StubRobot]
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 

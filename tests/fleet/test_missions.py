@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
-from tests.fleet.conftest import until
+from tests.fleet.conftest import RunningFleet, StubRobot, until
 from tests.fleet.judge import CLEAN, judge
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from tests.fleet.conftest import RunningFleet, StubRobot
-
-    MakeRobot = Callable[[str], StubRobot]
+MakeRobot = Callable[[str], StubRobot]
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
 

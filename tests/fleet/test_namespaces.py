@@ -6,8 +6,9 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -15,10 +16,7 @@ from pons.authority import issue
 from tests.conftest import ROOT
 from tests.fleet.conftest import RunningFleet, until
 from tests.fleet.judge import CLEAN, judge
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
+from tests.known import known
 
 pytestmark = [
     pytest.mark.e2e,
@@ -60,8 +58,7 @@ class NetworkedRobot:
             ["ip", "netns", "exec", self.space, *module, *self._words],
             cwd=ROOT, stdout=subprocess.PIPE, text=True,
         )  # fmt: skip
-        assert self.process.stdout is not None
-        self.process.stdout.readline()
+        known(self.process.stdout).readline()
 
     def plug(self, state: str) -> None:
         """Plug its end of the cable in or out: without ours, packets would go the default way."""
@@ -91,17 +88,10 @@ def robots(tmp_path: Path) -> Iterator[list[NetworkedRobot]]:
             robot.end()
 
 
-@pytest.fixture
-def fleet(tmp_path: Path) -> Iterator[RunningFleet]:
-    running = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
-    yield running
-    running.kill()
-    running.client.close()
-
-
 def test_a_pulled_cable_and_a_kill_lose_nothing_in_three_networks(
-    fleet: RunningFleet, robots: list[NetworkedRobot]
+    file_fleet: RunningFleet, robots: list[NetworkedRobot]
 ) -> None:
+    fleet = file_fleet
     for robot in robots:
         url = f"https://{robot.host}:{PORT}"
         added = fleet.run("add", url, "--token", "t", "--name", robot.name)

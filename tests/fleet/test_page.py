@@ -5,18 +5,17 @@ from __future__ import annotations
 import itertools
 import os
 import re
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from scripts.browser import CHROMIUM, chromium
 from tests.fleet.conftest import ROOT, RunningFleet, StubRobot, until
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+from tests.known import known
 
 pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(300)]
 
@@ -43,16 +42,13 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture
-def house(tmp_path: Path) -> Iterator[RunningFleet]:
+def house(file_fleet: RunningFleet) -> RunningFleet:
     """Return a fleet whose page asks for a token."""
-    running = RunningFleet(tmp_path / "home", f"sqlite:///{tmp_path / 'fleet.sqlite'}")
     tokens = {"PONS_FLEET_TOKEN": OPERATOR, "PONS_FLEET_VIEWER_TOKEN": VIEWER}
-    running.environment |= tokens
-    running.client.headers["authorization"] = f"Bearer {OPERATOR}"
-    running.start("fleet.watch.SILENT_S = 1.0", "fleet.page_api.AGAIN_S = 0.5")
-    yield running
-    running.kill()
-    running.client.close()
+    file_fleet.environment |= tokens
+    file_fleet.client.headers["authorization"] = f"Bearer {OPERATOR}"
+    file_fleet.start("fleet.watch.SILENT_S = 1.0", "fleet.page_api.AGAIN_S = 0.5")
+    return file_fleet
 
 
 @pytest.fixture
@@ -210,10 +206,8 @@ def test_a_hostile_robot_harms_no_other_and_writes_no_element(
     assert page.locator("#evil, img[src=x]").count() == 0
     until(lambda: house.states()["odd"] == "robot_silent")
     assert house.states()["good"] == "ready"
-    assert house.process is not None
-    status = Path(f"/proc/{house.process.pid}/status").read_text("ascii")
-    peak = re.search(r"VmHWM:\s+(\d+) kB", status)
-    assert peak is not None
+    status = Path(f"/proc/{known(house.process).pid}/status").read_text("ascii")
+    peak = known(re.search(r"VmHWM:\s+(\d+) kB", status))
     assert int(peak[1]) < 250_000  # the 100 MB were not read
 
 

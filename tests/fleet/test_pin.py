@@ -5,9 +5,10 @@ from __future__ import annotations
 import asyncio
 import ssl
 import threading
+from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -16,10 +17,6 @@ from fleet.link import FleetLink, RobotRefusal
 from fleet.pin import Pin, clean_url, take_pin
 from pons.authority import issue
 from tests.fleet.robot_stub import make_server
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 
 @contextmanager
@@ -53,23 +50,16 @@ def card_of(url: str, pin: Pin) -> str:
     return asyncio.run(ask())
 
 
-def test_a_certificate_is_pinned_and_another_robots_is_refused(tmp_path: Path) -> None:
-    with tls_robot(tmp_path, "r1") as url, tls_robot(tmp_path, "r2") as other:
-        pin = take_pin(url)
-        assert pin.kind == "leaf"  # this door gives no authority away
-        assert card_of(url, pin) == "r1"
-        with pytest.raises(RobotRefusal) as refused:
-            card_of(other, pin)
-        assert refused.value.code == "pin_mismatch"
-
-
-def test_an_authority_is_pinned_where_it_is_given(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("gives_authority", "kind"), [(False, "leaf"), (True, "authority")])
+def test_a_certificate_is_pinned_and_another_robots_is_refused(
+    tmp_path: Path, *, gives_authority: bool, kind: str
+) -> None:
     with (
-        tls_robot(tmp_path, "r1", gives_authority=True) as url,
-        tls_robot(tmp_path, "r2", gives_authority=True) as other,
+        tls_robot(tmp_path, "r1", gives_authority=gives_authority) as url,
+        tls_robot(tmp_path, "r2", gives_authority=gives_authority) as other,
     ):
         pin = take_pin(url)
-        assert pin.kind == "authority"
+        assert pin.kind == kind
         assert card_of(url, pin) == "r1"
         with pytest.raises(RobotRefusal) as refused:
             card_of(other, pin)

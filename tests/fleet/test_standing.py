@@ -5,19 +5,17 @@ from __future__ import annotations
 import asyncio
 import json
 from datetime import datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
 from fleet.addressee import Addressee
 from fleet.errors import FleetError
 from fleet.house import HouseRules
+from fleet.records import MissionRow
 from fleet.standing import give_due, judge_standing, show_standing
+from fleet.store import FleetStore
 from tests.fleet.test_store import store
-
-if TYPE_CHECKING:
-    from fleet.records import MissionRow
-    from fleet.store import FleetStore
 
 __all__ = ["store"]
 LATE_S = 1800.0

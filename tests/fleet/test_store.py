@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,10 +14,6 @@ from fleet.addressee import Addressee
 from fleet.errors import FleetError
 from fleet.records import MissionRow, RobotRow, question_of, show_mission
 from fleet.store import FleetStore
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from pathlib import Path
 
 CARD = json.dumps({"robot_id": "pons", "places": []})
 R1 = RobotRow("r1", "https://r1.local", "pons", "authority", "a" * 64, "pem", CARD)

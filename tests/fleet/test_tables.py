@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 import sqlalchemy as sa
@@ -11,12 +11,8 @@ from fleet import tables
 from fleet.addressee import Addressee
 from fleet.store import FleetStore
 from fleet.tables import metadata, missions
+from tests.fleet.postgres import Cluster
 from wire import ConfigError
-
-if TYPE_CHECKING:
-    from pathlib import Path
-
-    from tests.fleet.postgres import Cluster
 
 
 @pytest.fixture(params=["sqlite", pytest.param("postgres", marks=pytest.mark.long)])
@@ -61,18 +57,14 @@ def test_a_database_of_a_newer_version_is_refused_and_left_as_it_is(database: st
     assert "put the backup back" in str(refused.value)
 
 
-FIRST = frozenset(
-    {
-        "seq id order_id text body way names is_urgent state reason robot is_sent wish goal_id",
-        "goal_state question outcome unknown_since_unix_s attempt created_unix_s updated_unix_s",
-        "change",
-    }
+FIRST = (
+    "seq id order_id text body way names is_urgent state reason robot is_sent wish goal_id "
+    "goal_state question outcome unknown_since_unix_s attempt created_unix_s updated_unix_s change"
 )
 
 
 def test_what_is_added_to_a_mission_can_be_added_to_rows_that_are_there() -> None:
-    first = set(" ".join(FIRST).split())
-    added = [column for column in missions.columns if column.name not in first]
+    added = [column for column in missions.columns if column.name not in FIRST.split()]
     assert all(column.nullable or column.server_default is not None for column in added)
 
 

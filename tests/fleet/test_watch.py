@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import sqlite3
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, closing
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
@@ -14,14 +15,9 @@ from fleet.desk import keep_going
 from fleet.robots import add_robot, link_of
 from fleet.store import FleetStore
 from fleet.watch import RobotWatch
+from tests.fleet.conftest import StubRobot
 
-if TYPE_CHECKING:
-    from collections.abc import AsyncIterator, Callable
-    from pathlib import Path
-
-    from tests.fleet.conftest import StubRobot
-
-    MakeRobot = Callable[[str], StubRobot]
+MakeRobot = Callable[[str], StubRobot]
 
 PATIENCE_S = 20.0
 

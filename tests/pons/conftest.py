@@ -12,6 +12,7 @@ from pons.settings import LaunchSettings, load
 from pons_assets import ROBOT_FILE
 from tests.bridge.recorded import Taken, stream_of, written
 from tests.pons.drives import Drive, keep_ticks
+from tests.pons.mock_llm.mocks import RunningMock, running_mock
 from tests.pons.served_goals import Planner, served_goals
 from tests.site_sentences import refusals_are_whole_in_chinese
 from tools.lockstep import LockstepWorld
@@ -31,6 +32,13 @@ def served() -> Iterator[tuple[Planner, LaunchSettings]]:
     planner = Planner()
     with served_goals(planner) as port:
         yield planner, replace(load(), host="127.0.0.1", port=port)
+
+
+@pytest.fixture(scope="module")
+def mock() -> Iterator[RunningMock]:
+    """Serve one mock of a model for a module's tests."""
+    with running_mock() as served:
+        yield served
 
 
 @pytest.fixture(scope="session")

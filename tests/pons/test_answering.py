@@ -9,7 +9,6 @@ import pytest
 
 from planner.plan import GoalState
 from pons import goals
-from pons.__main__ import main
 from pons.grammar import parser
 from pons.settings import LaunchSettings, load
 from pons.terminal_text import how_to_answer
@@ -86,15 +85,6 @@ def test_an_id_alone_answers_nothing(
     assert goals.answer(settings, ["g2"], wait=True) == goals.EXIT_NO_ANSWER
     assert "pons answer g2 TEXT" in capsys.readouterr().err
     assert planner.heard == []
-
-
-@pytest.mark.parametrize("asked", [["answer", "yes"], ["confirm"], ["answer", "g1", "yes"]])
-def test_without_a_planner_that_is_told(
-    asked: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("PONS_PORT", "9")
-    assert main(asked) == goals.EXIT_UNREACHED
-    assert "pons up" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("state", list(GoalState))

@@ -14,6 +14,7 @@ import pytest
 
 from pons.background import end, open_page, show_logs, start
 from pons.settings import LaunchSettings
+from tests.known import known
 
 HOLDER = """
 import fcntl, os, sys, time
@@ -32,8 +33,7 @@ def holding(home: Path) -> Iterator[subprocess.Popen[str]]:
     with subprocess.Popen(
         [sys.executable, "-c", HOLDER, str(lock)], stdout=subprocess.PIPE, text=True
     ) as process:
-        assert process.stdout is not None
-        assert process.stdout.readline() == "held\n"
+        assert known(process.stdout).readline() == "held\n"
         try:
             yield process
         finally:

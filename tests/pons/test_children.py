@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,6 +19,17 @@ from wire import RobotDescription
 ROBOT = ["sim", "localization", "bridge", "planner"]
 
 
+def settings_in(folder: Path, **more: Any) -> LaunchSettings:
+    given = {"site": folder, "robot": folder / "robot.toml", "port": 8420, **more}
+    return LaunchSettings(folder, host="127.0.0.1", **given)
+
+
+def arguments_of(folder: Path, robot: object, **more: Any) -> dict[str, list[str]]:
+    """Return the arguments of each process of a robot that is described so."""
+    described = RobotDescription.model_validate(robot)
+    return {one.name: one.arguments for one in children(settings_in(folder, **more), described)}
+
+
 @pytest.mark.parametrize(
     ("kind", "expected"),
     [("sim", [*ROBOT, "camera"]), ("node", ROBOT), ("none", ROBOT)],
@@ -25,9 +37,8 @@ ROBOT = ["sim", "localization", "bridge", "planner"]
 def test_the_simulated_camera_waits_until_the_rest_is_ready(
     tmp_path: Path, kind: str, expected: list[str]
 ) -> None:
-    settings = LaunchSettings(tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420)
     robot = RobotDescription.model_validate({"camera": {"kind": kind}})
-    found = children(settings, robot)
+    found = children(settings_in(tmp_path), robot)
     assert [child.name for child in found] == expected
     assert [child.name for child in found if child.waits_for_ready] == expected[4:]
     assert [child.name for child in found if child.knows_tokens] == ["planner"]
@@ -56,11 +67,7 @@ def test_a_robot_of_metal_has_what_its_file_names_and_a_twin_what_it_plays(
     twin: bool,
     expected: list[str],
 ) -> None:
-    robot = RobotDescription.model_validate({"drive": drive, "lidar": lidar})
-    settings = LaunchSettings(
-        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
-    )
-    found = {child.name: child.arguments for child in children(settings, robot)}
+    found = arguments_of(tmp_path, {"drive": drive, "lidar": lidar}, twin=twin)
     assert list(found) == expected
     assert ("--drive-port" in found["bridge"]) == (twin and bool(drive))
     if "lidar" in found:
@@ -84,10 +91,7 @@ def test_a_camera_of_metal_has_its_process_and_where_a_twin_plays_is_drawn(
     if kind == "ros2":
         base = {"drive": {"kind": "ros2"}, "ros2": dict(ROS2), "inputs": {"imu": False}}
     robot = RobotDescription.model_validate(base | {"camera": {"kind": kind, **keys.get(kind, {})}})
-    settings = LaunchSettings(
-        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
-    )
-    found = {child.name: child.arguments for child in children(settings, robot)}
+    found = arguments_of(tmp_path, robot, twin=twin)
     assert ("camera" in found) == robot.camera.is_real
     if robot.camera.is_real:
         assert found["camera"][0] == ("sim.camera" if twin else "sensors.camera")
@@ -99,11 +103,8 @@ def test_a_gyro_on_i2c_has_its_process_where_metal_counts_on_it(
     tmp_path: Path, twin: bool, counts: bool
 ) -> None:
     chip = {"kind": "mpu6050", "bus": 1, "address": 0x68} if counts else {}
-    robot = RobotDescription.model_validate({"drive": MCU, "imu": chip, "inputs": {"imu": counts}})
-    settings = LaunchSettings(
-        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
-    )
-    found = {child.name: child.arguments for child in children(settings, robot)}
+    robot = {"drive": MCU, "imu": chip, "inputs": {"imu": counts}}
+    found = arguments_of(tmp_path, robot, twin=twin)
     assert ("imu" in found) == (counts and not twin)
     if "imu" in found:
         assert found["imu"][0] == "sensors.imu"
@@ -119,13 +120,8 @@ def test_a_gyro_on_i2c_has_its_process_where_metal_counts_on_it(
 def test_a_base_of_ros2_has_its_process_and_its_twin_a_node_that_this_dials(
     tmp_path: Path, twin: bool, expected: list[str]
 ) -> None:
-    robot = RobotDescription.model_validate(
-        {"drive": {"kind": "ros2"}, "lidar": {"kind": "ros2"}, "ros2": ROS2}
-    )
-    settings = LaunchSettings(
-        tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420, twin=twin
-    )
-    found = {child.name: child.arguments for child in children(settings, robot)}
+    robot = {"drive": {"kind": "ros2"}, "lidar": {"kind": "ros2"}, "ros2": ROS2}
+    found = arguments_of(tmp_path, robot, twin=twin)
     assert list(found) == expected
     assert ("--port" in found["ros2"]) == twin
     assert "--drive-port" not in found["bridge"]
@@ -194,8 +190,7 @@ def test_a_smart_home_is_joined_last_where_the_owner_names_its_broker(
 ) -> None:
     if text is not None:
         (tmp_path / "settings.toml").write_text(text)
-    settings = LaunchSettings(tmp_path, tmp_path / "robot.toml", tmp_path, "127.0.0.1", 8420)
-    found = children(settings, RobotDescription.model_validate({}), planner=planner)
+    found = children(settings_in(tmp_path), RobotDescription(), planner=planner)
     home = [child for child in found if child.name == "mqtt"]
     assert len(home) == joins
     assert all(each.waits_for_ready and not each.knows_tokens for each in home)
@@ -203,10 +198,7 @@ def test_a_smart_home_is_joined_last_where_the_owner_names_its_broker(
 
 def test_while_a_home_is_mapped_only_the_simulator_knows_it(tmp_path: Path) -> None:
     world = CHECKOUT / "sites" / "two_room"
-    settings = LaunchSettings(
-        tmp_path, CHECKOUT / "robot.toml", world, "127.0.0.1", 8420, mapping="attic"
-    )
-    found = {child.name: child.arguments for child in children(settings, RobotDescription())}
+    found = arguments_of(tmp_path, {}, site=world, mapping="attic")
     canvas = str(tmp_path / "mapping" / "attic")
     sites = {name: words[words.index("--site") + 1] for name, words in found.items()}
     assert sites == {

@@ -7,20 +7,17 @@ import signal
 import subprocess
 import sys
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 
 from pons import fault
 from pons.__main__ import main
+from tests.known import known
+from wire import SimTruth
 from wire.keys import SIM_TRUTH, Party
 from wire.session import open_session
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
-
-    from wire import SimTruth
 
 LIMIT_S = 20.0
 
@@ -112,8 +109,7 @@ def test_faults_stand_until_mended_and_ctrl_c_mends_them(
         until(broken)
         process = command(repository, tmp_path, "cliff", "--for", "30")
         until(lambda: broken("cliff"))
-        assert process.stdout is not None
-        assert process.stdout.readline() == "broken: cliff\n"
+        assert known(process.stdout).readline() == "broken: cliff\n"
         process.send_signal(signal.SIGINT)
         out, _ = process.communicate(timeout=LIMIT_S)
         assert (process.returncode, out) == (0, "all is mended\n")

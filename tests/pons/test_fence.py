@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
@@ -14,9 +15,6 @@ from pons.http import PlannerDown, PlannerProblem
 from pons.settings import CHECKOUT, LaunchSettings
 from wire import Answer, FenceFile, fingerprint
 from wire.fence import fence_text
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 SITE = CHECKOUT / "sites" / "two_room"
 CHANGED = {

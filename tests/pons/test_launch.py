@@ -9,12 +9,13 @@ import os
 import shutil
 import signal
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from pons import launch
-from pons.settings import CHECKOUT, LaunchSettings
+from pons.settings import CHECKOUT, LaunchSettings, load
 from pons.supervisor import REFUSED_TO_START, Child
 from wire import EXIT_MAP, RobotDescription
 
@@ -78,3 +79,15 @@ def test_a_map_that_can_not_be_begun_leaves_the_site_before_it(
     (tmp_path / "mapping").write_text("a file where a folder belongs")
     assert up(EXIT_MAP) == [str(TWO_ROOM)] * 2
     assert "site_unwritable" in capsys.readouterr().out
+
+
+def test_what_a_robot_keeps_is_readable_by_its_own_user_alone(tmp_path: Path) -> None:
+    """Children inherit the mask: journal, recordings, places and logs are made under it."""
+    before = os.umask(0o022)
+    try:
+        settings = replace(load(), home=tmp_path / "h", site=tmp_path / "none")
+        assert launch.run(settings) == REFUSED_TO_START
+        (tmp_path / "file").touch()
+    finally:
+        os.umask(before)
+    assert (tmp_path / "file").stat().st_mode & 0o777 == 0o600

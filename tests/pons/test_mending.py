@@ -42,6 +42,11 @@ def stale_site(settings: LaunchSettings) -> Path:
     return folder
 
 
+def proposed(told: str) -> str:
+    """Return the id of the mend that was told of."""
+    return told.split("--accept ")[1].split(maxsplit=1)[0]
+
+
 def test_a_drive_mends_a_site_and_nothing_of_it_is_lost(
     drive: Drive,
     settings: LaunchSettings,
@@ -64,7 +69,7 @@ def test_a_drive_mends_a_site_and_nothing_of_it_is_lost(
     assert told == capsys.readouterr().out
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
     assert (settings.home / "mending" / "den" / "changes.png").is_file()
-    mend_id = told.split("--accept ")[1].split()[0]
+    mend_id = proposed(told)
 
     assert mapping.run(settings, ["den", "--accept", "0" * 16]) == 3
     assert "mend_unknown" in capsys.readouterr().err
@@ -106,7 +111,7 @@ def test_rooms_that_were_named_at_the_page_are_known_to_the_mended_map(
     for names, told in (((), True), ((named,), False)):
         TaughtPlaces.in_home(settings.home).save(names)
         assert mapping.run(settings, ["den", "--mend", str(drive[0])]) == 0
-        mend_id = capsys.readouterr().out.split("--accept ")[1].split()[0]
+        mend_id = proposed(capsys.readouterr().out)
         assert mapping.run(settings, ["den", "--accept", mend_id]) == 0
         assert ("no_rooms" in capsys.readouterr().out) is told
         assert mapping.run(settings, ["den", "--undo"]) == 0
@@ -124,12 +129,8 @@ def test_a_change_that_is_left_out_is_not_made(
     assert f"{number}  gone" in capsys.readouterr().out
     told = json.loads((settings.home / "mending" / "den" / "changes.json").read_bytes())
     assert told["left_out"] == [int(number)]
-    assert (
-        load_map(settings.home / "mending" / "den" / "map.yaml").grid.at(
-            CRATE_M[0] + 0.2, CRATE_M[1] + 0.2
-        )
-        == OCCUPIED
-    )
+    grid = load_map(settings.home / "mending" / "den" / "map.yaml").grid
+    assert grid.at(CRATE_M[0] + 0.2, CRATE_M[1] + 0.2) == OCCUPIED
     assert mapping.run(settings, ["den", "--mend", "--without", "99"]) == 3
     assert "mend_change_unknown" in capsys.readouterr().err
 
@@ -139,7 +140,7 @@ def test_a_proposal_for_another_map_is_stale(
 ) -> None:
     folder = stale_site(settings)
     assert mapping.run(settings, ["den", "--mend", str(drive[0])]) == 0
-    mend_id = capsys.readouterr().out.split("--accept ")[1].split()[0]
+    mend_id = proposed(capsys.readouterr().out)
     (folder / "map.yaml").write_bytes((folder / "map.yaml").read_bytes() + b"# by hand\n")
     assert mapping.run(settings, ["den", "--accept", mend_id]) == 3
     assert "mend_stale" in capsys.readouterr().err

@@ -13,6 +13,7 @@ import pytest
 from pons import pointing, rehearse
 from pons.grammar import parser
 from pons.settings import LaunchSettings, load
+from tests.known import known
 from tests.planner.api.serving import Served, served
 
 
@@ -58,8 +59,7 @@ def test_a_point_is_of_the_robots_map_and_its_heading_in_degrees(
     assert body["points"] == [{"x_m": -1.5, "y_m": 4.2, "yaw_rad": pytest.approx(-pi / 2)}]
     own, _ = pointing._goal_of(settings, ["1", "2"], None)
     assert own is not None
-    status = running.services.robot.status
-    assert status is not None
+    status = known(running.services.robot.status)
     assert own["map_id"] == status.map_id
 
 

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import shutil
+from datetime import UTC, datetime
 from math import pi
 from pathlib import Path
 
 import pytest
 
-from planner.site import Site
+from maps.room_proposals import read_proposals
+from planner.site import Site, TaughtPlace, TaughtPlaces
+from planner.site.places import Names
 from pons import site
 from pons.settings import LaunchSettings, site_of
 from pons.site_findings import reserved_name_findings
-from pons_assets import ROBOT_FILE, SITES
+from pons_assets import SITES
+from tests.known import known
 from tests.site_sentences import english_in
 from wire import FenceFile
 
@@ -31,14 +35,6 @@ def told_twice(
 
 
 @pytest.fixture
-def settings(tmp_path: Path) -> LaunchSettings:
-    """Return a home of its own."""
-    return LaunchSettings(
-        home=tmp_path / "home", robot=ROBOT_FILE, site=tmp_path, host="127.0.0.1", port=1
-    )
-
-
-@pytest.fixture
 def plan(tmp_path: Path, repository: Path) -> Path:
     """Return the map of two_room, as Nav2's saver would have written it."""
     text = (repository / "sites" / "two_room" / "map.yaml").read_text()
@@ -46,6 +42,24 @@ def plan(tmp_path: Path, repository: Path) -> Path:
     path = tmp_path / "nav.yaml"
     path.write_text(text.replace("0.196", "0.25"))
     return path
+
+
+@pytest.fixture
+def mine(settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]) -> Path:
+    """Return the folder of a site that was imported."""
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    capsys.readouterr()
+    return site_of("mine", settings.home)
+
+
+def closed_mask(plan: Path) -> str:
+    """Return a keep-out mask that closes everything."""
+    picture = (plan.parent / "map.pgm").read_bytes()
+    header = picture[: picture.index(b"255\n") + 4]
+    (plan.parent / "closed.pgm").write_bytes(header + bytes(len(picture) - len(header)))
+    mask = plan.parent / "mask.yaml"
+    mask.write_text(plan.read_text().replace("map.pgm", "closed.pgm"))
+    return str(mask)
 
 
 def test_unknown_floor_needs_a_persons_word(
@@ -63,19 +77,17 @@ def test_unknown_floor_needs_a_persons_word(
 
 
 def test_a_proposed_room_gets_a_name_and_is_a_place(
-    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, mine: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
-    before = Site.load(site_of("mine", settings.home)).map_id
+    before = Site.load(mine).map_id
     assert site.run(settings, ["name", "mine", "room_1", "tea kitchen", "--zh", "茶水间"]) == 0
-    loaded = Site.load(site_of("mine", settings.home))
-    found = loaded.find_place("茶水间")
-    assert found is not None
+    loaded = Site.load(mine)
+    found = known(loaded.find_place("茶水间"))
     assert found.id == "tea_kitchen"
     assert loaded.map_id == before
     assert site.run(settings, ["name", "mine", "room_2", "tea kitchen"]) == 3
     assert "place_" in capsys.readouterr().err
-    assert len(Site.load(site_of("mine", settings.home)).rooms) == 1, "a refusal leaves nothing"
+    assert len(Site.load(mine).rooms) == 1, "a refusal leaves nothing"
     assert site.run(settings, ["name", "mine", "room_9", "attic"]) == 3
     assert "room_unknown" in capsys.readouterr().err
     assert site.run(settings, ["rooms", "mine"]) == 0
@@ -146,14 +158,9 @@ def test_a_start_may_look_any_way_round(settings: LaunchSettings, plan: Path) ->
 def test_a_site_that_would_not_load_is_not_left_behind(
     settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A keep-out mask that closes everything: home would lie outside the fence."""
-    picture = (plan.parent / "map.pgm").read_bytes()
-    header = picture[: picture.index(b"255\n") + 4]
-    (plan.parent / "closed.pgm").write_bytes(header + bytes(len(picture) - len(header)))
-    mask = plan.parent / "mask.yaml"
-    mask.write_text(plan.read_text().replace("map.pgm", "closed.pgm"))
+    """Home would lie outside the fence."""
     words = ["import", str(plan), "mine", "--unknown", "unknown"]
-    asked = [*words, "--keepout", str(mask)]
+    asked = [*words, "--keepout", closed_mask(plan)]
     ended, english, chinese = told_twice(settings, asked, capsys)
     assert ended == 3
     assert "place_outside_fence" in english
@@ -183,29 +190,27 @@ def test_what_grey_205_was_taken_for_is_told(
 
 @pytest.mark.parametrize("name", ["stop", "停", "yes", "go to the kitchen"])
 def test_a_room_is_not_called_by_an_order(
-    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str], name: str
+    settings: LaunchSettings, mine: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
-    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
     ended, english, chinese = told_twice(settings, ["name", "mine", "room_1", name], capsys)
     assert ended == 3
     assert "place_name_reserved" in english
     assert "名称" in chinese
-    assert not Site.load(site_of("mine", settings.home)).rooms
+    assert not Site.load(mine).rooms
 
 
 @pytest.mark.parametrize("again", [["kitchen"], ["KITCHEN"], ["galley", "--zh", "厨房"]])
 def test_a_name_that_a_place_has_is_told_with_that_place(
-    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str], again: list[str]
+    settings: LaunchSettings, mine: Path, capsys: pytest.CaptureFixture[str], again: list[str]
 ) -> None:
-    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
     assert site.run(settings, ["name", "mine", "room_1", "kitchen", "--zh", "厨房"]) == 0
-    before = (site_of("mine", settings.home) / "places.yaml").read_bytes()
+    before = (mine / "places.yaml").read_bytes()
     ended, english, chinese = told_twice(settings, ["name", "mine", "room_1", *again], capsys)
     assert ended == 3
     assert "place_name_taken" in english
     assert f"{again[-1]!r} is a name of 'kitchen' already" in english
     assert f"{again[-1]!r} 已是 'kitchen' 的名称" in chinese
-    assert (site_of("mine", settings.home) / "places.yaml").read_bytes() == before
+    assert (mine / "places.yaml").read_bytes() == before
 
 
 @pytest.mark.parametrize(
@@ -219,19 +224,17 @@ def test_a_name_that_a_place_has_is_told_with_that_place(
 )
 def test_a_name_in_the_files_that_reads_as_an_order_is_found(
     settings: LaunchSettings,
-    plan: Path,
+    mine: Path,
     capsys: pytest.CaptureFixture[str],
     line: str,
     reserved: list[str],
 ) -> None:
-    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
-    places = site_of("mine", settings.home) / "places.yaml"
-    home = Site.load(places.parent).home.pose
+    places = mine / "places.yaml"
+    home = Site.load(mine).home.pose
     spot = f"  pose: {{x_m: {home.x_m}, y_m: {home.y_m}, yaw_rad: 0.0}}\n"
     places.write_text(
         f"{places.read_text('utf-8')}- id: thing\n  kind: place\n{line}{spot}", "utf-8"
     )
-    capsys.readouterr()
     site.run(settings, ["check", "mine"])
     said = [line for line in capsys.readouterr().out.split("\n") if "reserved" in line]
     assert len(said) == len(reserved)
@@ -255,24 +258,15 @@ def test_a_site_that_is_not_there_is_told_with_those_that_are(
 
 
 def test_masks_of_a_site_that_exists_make_a_fence_to_propose(
-    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
+    settings: LaunchSettings, plan: Path, mine: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
-    folder = site_of("mine", settings.home)
-    before = (folder / "fence.json").read_bytes()
-    text = plan.read_text().replace("map.pgm", "closed.pgm")
-    (plan.parent / "mask.yaml").write_text(text)
-    picture = (plan.parent / "map.pgm").read_bytes()
-    header = picture[: picture.index(b"255\n") + 4]
-    (plan.parent / "closed.pgm").write_bytes(header + bytes(len(picture) - len(header)))
-    capsys.readouterr()
-    words = ["masks", "mine", "--keepout", str(plan.parent / "mask.yaml")]
-    assert site.run(settings, words) == 0
+    before = (mine / "fence.json").read_bytes()
+    assert site.run(settings, ["masks", "mine", "--keepout", closed_mask(plan)]) == 0
     said = capsys.readouterr()
     fence = FenceFile.model_validate_json(said.out)
-    assert len(fence.keep_outs) > len(Site.load(folder).fence.record.keep_outs)
+    assert len(fence.keep_outs) > len(Site.load(mine).fence.record.keep_outs)
     assert "pons fence propose" in said.err
-    assert (folder / "fence.json").read_bytes() == before, "nothing is in force yet"
+    assert (mine / "fence.json").read_bytes() == before, "nothing is in force yet"
     ended, english, chinese = told_twice(settings, ["masks", "mine"], capsys)
     assert ended == 2
     assert "masks_none: say --keepout MASK.yaml" in english
@@ -293,3 +287,24 @@ def test_a_site_is_found_by_path_then_at_home_then_among_ours(settings: LaunchSe
     assert site_of("two_room", settings.home) == own
     assert site_of(str(settings.home), settings.home) == settings.home
     assert site_of("nowhere", settings.home) == Path("nowhere").absolute()
+
+
+def test_a_room_that_was_named_at_the_page_has_its_name_here_too(
+    settings: LaunchSettings, plan: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert site.run(settings, ["import", str(plan), "mine", "--unknown", "unknown"]) == 0
+    assert "no_rooms" in capsys.readouterr().out
+    assert not (settings.home / "state.sqlite").exists(), "looking makes no store"
+    folder = site_of("mine", settings.home)
+    room, other = read_proposals(folder)[:2]
+    kitchen = TaughtPlace(
+        id="kitchen", name=Names(en="kitchen", zh="厨房"), pose=room.pose, polygon=room.polygon,
+        map_id=Site.load(folder).map_id, by="page", taught=datetime(2026, 11, 26, tzinfo=UTC),
+    )  # fmt: skip
+    TaughtPlaces.in_home(settings.home).save((kitchen,))
+    assert site.run(settings, ["rooms", "mine"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert lines[room.id].endswith("named kitchen")
+    assert lines[other.id].endswith("no name yet")
+    site.run(settings, ["check", "mine"])
+    assert "no_rooms" not in capsys.readouterr().out

@@ -20,6 +20,7 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from pons.stop import CONFIRMED, SAID_BY_PLANNER, SENT
+from tests.known import known
 from tests.pons.lying_planner import lying_planner
 from tests.pons.standing_bridge import StandingBridge
 from wire.doors import BRIDGE_DOOR
@@ -171,9 +172,8 @@ def test_who_took_the_bridges_place_is_told_to_stop_but_not_believed(home: Path)
     (home / "run").chmod(0o755)
     command = [*impostor, "tests.pons.standing_bridge", str(home), "r7"]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as other:
-        assert other.stdout is not None
         try:
-            assert other.stdout.readline() == "speaks\n"
+            assert known(other.stdout).readline() == "speaks\n"
             os.chown(folders[0], STRANGER, STRANGER)
             Endpoints(home).socket(BRIDGE_DOOR).chmod(0o777)
             robot = home / "robot.toml"
@@ -225,8 +225,7 @@ def test_a_hung_planner_does_not_keep_the_stop(home: Path, bridge: StandingBridg
     with subprocess.Popen(
         [sys.executable, "-c", HUNG], stdout=subprocess.PIPE, text=True
     ) as planner:
-        assert planner.stdout is not None
-        port = int(planner.stdout.readline())
+        port = int(known(planner.stdout).readline())
         planner.send_signal(signal.SIGSTOP)
         try:
             assert_taken(pons(home, "stop", port=port), "stop")

@@ -15,6 +15,7 @@ import pytest
 
 from pons.supervisor import BEHIND, FIRST_PAUSE_S, HANG_S, TOKENS, Child
 from sim.camera.__main__ import NICE
+from tests.known import known
 from tests.processes.nice_values import leads_its_session, stand_of
 
 SLEEPER = "import time\nprint('awake', flush=True)\ntime.sleep(60)\n"
@@ -85,8 +86,7 @@ def wait_for_word(log: Path, word: str) -> None:
 def test_a_death_is_noticed_once_and_its_words_kept(child: Child) -> None:
     child.log.write_text("words of an earlier run\n")
     child.start(100.0)
-    assert child.process is not None
-    child.process.wait()
+    known(child.process).wait()
     assert child.died(101.0) == 7
     assert child.died(101.1) is None
     assert child.last_words() == "my last words"
@@ -98,8 +98,7 @@ def test_a_death_is_noticed_once_and_its_words_kept(child: Child) -> None:
 def test_a_child_whose_log_cannot_be_opened_runs_all_the_same(child: Child) -> None:
     child.log.mkdir()  # root may write where a mode forbids it, but not this
     child.start(100.0)
-    assert child.process is not None
-    assert child.process.wait() == 7
+    assert known(child.process).wait() == 7
     assert child.died(101.0) == 7
     assert child.last_words() == ""
 
@@ -107,11 +106,10 @@ def test_a_child_whose_log_cannot_be_opened_runs_all_the_same(child: Child) -> N
 @pytest.mark.parametrize("child", ["sleeper"], indirect=True)
 def test_stopping_ends_the_process(child: Child) -> None:
     child.start(0.0)
-    assert child.process is not None
-    pid = child.process.pid
+    pid = known(child.process).pid
     child.stop(5.0)
     assert gone(pid)
-    assert child.process is None
+    assert known(child.process) is None
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
@@ -126,10 +124,9 @@ def test_the_session_of_a_camera_stands_behind_the_others(
     child = Child("camera", ["sim.camera"], modules / "log", path)
     try:
         child.start(0.0)
-        assert child.process is not None
         wait_for_word(child.log, "awake")
-        assert leads_its_session(child.process.pid)
-        nice, session = stand_of(child.process.pid)
+        assert leads_its_session(known(child.process).pid)
+        nice, session = stand_of(known(child.process).pid)
         assert (nice, session) == (os.nice(0), None if session is None else NICE)
         assert child.log.read_text() == "awake\n", "to stand behind takes no right"
     finally:
@@ -141,13 +138,12 @@ def test_the_session_of_a_camera_stands_behind_the_others(
 def test_a_child_whose_loop_falls_silent_is_killed_and_due_again(child: Child) -> None:
     child.is_watched = True
     child.start(0.0)
-    assert child.process is not None
     wait_for_word(child.log, "fed")
     assert not child.kill_if_hung(100.0), "counted from what it said, however late that is read"
     assert not child.kill_if_hung(100.0 + HANG_S)
-    child.process.send_signal(signal.SIGSTOP)
+    known(child.process).send_signal(signal.SIGSTOP)
     assert child.kill_if_hung(100.1 + HANG_S)
-    child.process.wait(10.0)
+    known(child.process).wait(10.0)
     assert child.died(101.0 + HANG_S) == -signal.SIGKILL
     assert child.due(101.0 + HANG_S + FIRST_PAUSE_S)
 
@@ -163,8 +159,7 @@ def test_a_slow_start_and_an_unwatched_child_are_let_be(child: Child, is_watched
 @pytest.mark.parametrize("child", ["stubborn"], indirect=True)
 def test_a_child_that_will_not_end_is_killed(child: Child) -> None:
     child.start(0.0)
-    assert child.process is not None
-    pid = child.process.pid
+    pid = known(child.process).pid
     wait_for_word(child.log, "deaf")
     child.stop(0.2)
     assert gone(pid)
@@ -178,12 +173,11 @@ def test_a_killed_parent_takes_its_child_along(modules: Path) -> None:
         text=True,
         env=environment,
     )
-    assert parent.stdout is not None
-    pid = int(parent.stdout.readline())
+    pid = int(known(parent.stdout).readline())
     wait_for_word(modules / "log", "awake")
     parent.send_signal(signal.SIGKILL)
     parent.wait()
-    parent.stdout.close()
+    known(parent.stdout).close()
     assert gone(pid)
 
 
@@ -201,8 +195,7 @@ def test_a_log_that_floods_fills_no_disk_and_its_writer_lives(child: Child) -> N
     assert files == ["log", "log.1", "log.2"]
     assert max(seen) < most
     assert all(child.log.with_name(name).stat().st_size <= most for name in files[1:])
-    assert child.process is not None
-    assert child.process.poll() is None
+    assert known(child.process).poll() is None
     wait_for_word(child.log, "loud")  # it was cut just now
     assert child.last_words(1).startswith("loud")
     assert b"\0" not in child.log.read_bytes(), "it writes at the end, not where it was"
@@ -225,6 +218,5 @@ def test_only_the_planner_inherits_the_tokens(
         monkeypatch.setenv(name, "a good and long token")
     child.knows_tokens = knows
     child.start(0.0)
-    assert child.process is not None
-    child.process.wait()
+    known(child.process).wait()
     assert child.last_words() == str(sorted(TOKENS) if knows else [])

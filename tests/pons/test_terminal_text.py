@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from planner.brain.model_error_codes import REASONS
 from pons.goals import language_of
-from pons.terminal_text import figures, goal_line, message, robot_lines, step_line
+from pons.terminal_text import figures, goal_line, message, robot_lines, stand_in, step_line
 from tests.wire.examples import STATUS
 
 OUTCOME = {
@@ -19,28 +20,28 @@ OUTCOME = {
 }
 
 
-def test_figures_are_for_people() -> None:
-    assert figures(OUTCOME) == (
-        "asked kitchen (1.50, 1.90); reached kitchen (1.51, 1.91); metres 2.42 m; "
-        "seconds 10.48 s; limited by robot, obstacle"
-    )
-
-
-def test_what_is_not_known_is_left_out() -> None:
-    bare: dict[str, object] = {
-        "code": "stopped",
-        "asked": None,
-        "reached": None,
-        "metres": None,
-        "limited_by": [],
-    }
-    assert figures(bare) == ""
-    assert figures(None) == ""
-    assert figures({"reached": {"place": None, "room": "kitchen"}}) == "reached kitchen"
-
-
-def test_a_whole_number_of_metres_is_a_figure_too() -> None:
-    assert figures({"metres": 0, "seconds": 3}) == "metres 0.00 m; seconds 3.00 s"
+@pytest.mark.parametrize(
+    ("outcome", "told"),
+    [
+        (
+            OUTCOME,
+            (
+                "asked kitchen (1.50, 1.90); reached kitchen (1.51, 1.91); metres 2.42 m; "
+                "seconds 10.48 s; limited by robot, obstacle"
+            ),
+        ),
+        ({"code": "stopped", "asked": None, "reached": None, "metres": None}, ""),
+        ({"limited_by": []}, ""),
+        (None, ""),
+        ({"reached": {"place": None, "room": "kitchen"}}, "reached kitchen"),
+        ({"metres": 0, "seconds": 3}, "metres 0.00 m; seconds 3.00 s"),
+        ({"asked": {"place": None, "room": None, "x_m": None}, "seconds": 2.0}, "seconds 2.00 s"),
+    ],
+)
+def test_figures_are_for_people_and_what_is_not_known_is_left_out(
+    outcome: dict[str, object] | None, told: str
+) -> None:
+    assert figures(outcome) == told
 
 
 def test_messages_speak_the_persons_language() -> None:
@@ -107,11 +108,6 @@ def test_a_refused_planner_is_told_in_both_languages_with_what_to_do(code: str) 
     assert "start" not in shown(answers=[answer | {"accepted": True}])
 
 
-def test_a_turn_asks_for_no_place() -> None:
-    turned = {"asked": {"place": None, "room": None, "x_m": None, "y_m": None}, "seconds": 2.0}
-    assert figures(turned) == "seconds 2.00 s"
-
-
 @pytest.mark.parametrize("state", ["lost", "searching"])
 def test_a_robot_without_a_pose_says_so_first_in_both_languages(state: str) -> None:
     said = STATUS.model_dump(mode="json")
@@ -146,3 +142,23 @@ def test_a_map_that_was_changed_under_way_is_named_first_in_both_languages(
         assert "pons up" in line
     assert chinese.startswith("机器人停着不动")
     assert well == robot_lines({**robot, "localized_map": "a" * 16})
+
+
+def planned_by(**brain: object) -> dict[str, object]:
+    return {"brain": {"name": "offline", "fallback_from": None, **brain}}
+
+
+@pytest.mark.parametrize("given", [{}, {"brain": None}, planned_by()])
+def test_nothing_is_said_of_the_brain_that_was_asked(given: dict[str, object]) -> None:
+    assert stand_in(given, "en") == ""
+
+
+def test_a_stand_in_is_named_with_the_reason_in_both_languages() -> None:
+    words = REASONS["timeout"].model_dump()
+    given = planned_by(fallback_from="qwen3", fallback_reason="timeout", fallback_message=words)
+    said = "offline planned in place of qwen3: The model did not answer in time."
+    assert stand_in(given, "en") == said
+    assert stand_in(given, "zh") == "offline 代替 qwen3 规划：模型没有及时应答。"
+    assert stand_in(planned_by(fallback_from="m", fallback_reason="resting"), "en").endswith(
+        "resting"
+    )

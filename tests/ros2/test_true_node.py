@@ -27,6 +27,7 @@ from pons.settings import LaunchSettings
 from ros2.robot_link import RobotLink
 from sensors.camera.shot import CameraTrouble
 from sensors.camera.source import open_source
+from tests.known import known
 from tests.ros2.bridge import Bridge
 from tests.sensors.camera.test_packed_picture import JPEG, PICTURE
 from tests.wire.examples import EXAMPLES
@@ -128,9 +129,8 @@ class Graph:
             process.communicate(timeout=LIMIT_S)
 
     def _read(self, process: subprocess.Popen[str]) -> None:
-        assert process.stdout is not None
         with suppress(ValueError):  # closed beside us
-            for line in process.stdout:
+            for line in known(process.stdout):
                 self.twists.append(json.loads(line))
 
 
@@ -162,8 +162,7 @@ def test_a_base_of_either_twist_is_driven_and_stands_when_the_process_is_killed(
     assert bridge.state is None
     graph.node()
     bridge.until(lambda: bridge.code() is None)
-    assert bridge.status is not None
-    assert bridge.status.cmd_vel == kind
+    assert known(bridge.status).cmd_vel == kind
     bridge.until(is_fast(graph))
     bridge.until(lambda: bridge.state is not None and bridge.state.left_radps > 0.5)
     process.kill()
@@ -307,9 +306,8 @@ def test_rviz_is_shown_the_way_the_places_and_how_the_bridge_stands(
             return look
 
         def keep(viewer: subprocess.Popen[str]) -> None:
-            assert viewer.stdout is not None
             with suppress(ValueError):
-                lines.extend(map(json.loads, viewer.stdout))
+                lines.extend(map(json.loads, known(viewer.stdout)))
 
         bridge.until(is_seen("path", [[0.0, 1.0], [2.0, 1.0]]))
         bridge.until(is_seen("markers", ["kitchen"]))

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from scripts.at_once import BETWEEN
+from tests.known import known
 
 
 def together(*programs: str) -> list[str]:
@@ -63,9 +64,8 @@ def test_an_interrupt_ends_both_and_is_told(repository: Path) -> None:
         text=True,
         start_new_session=True,
     ) as both:
-        assert both.stdout is not None
-        assert both.stdout.readline() == "up\n"
+        assert known(both.stdout).readline() == "up\n"
         os.killpg(both.pid, signal.SIGINT)
-        rest = both.stdout.read()
+        rest = known(both.stdout).read()
     assert both.returncode == 130
     assert rest.count("ended") >= 1

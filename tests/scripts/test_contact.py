@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import pytest
 
 from tests.contact import SEEN, STATUS, Contacts
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 TOLD = [(f"{SEEN}: 1", STATUS), ("too late", 1)]
 

@@ -6,14 +6,12 @@ import os
 import signal
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from scripts import stolen
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from tests.known import known
 
 LINE = "cpu  {busy} 0 0 0 0 0 0 {stolen} 0 0\ncpu0 1 1 1 1 1 1 1 1 0 0\n"
 
@@ -61,8 +59,7 @@ def test_a_command_that_is_interrupted_ends_by_itself(repository: Path, tmp_path
     with subprocess.Popen(
         words, cwd=repository, stdout=subprocess.PIPE, start_new_session=True, text=True
     ) as running:
-        assert running.stdout is not None
-        assert running.stdout.readline() == "began\n"
+        assert known(running.stdout).readline() == "began\n"
         os.killpg(running.pid, signal.SIGINT)
         assert running.wait(20) == 0
     assert (tmp_path / "x").exists(), "it was killed while it cleaned up"

@@ -61,4 +61,6 @@ def test_the_scene_tells_where_things_are_that_somebody_moved(robot: SimRobot) -
 def test_what_nobody_can_carry_is_refused_with_what_there_is(robot: SimRobot, name: str) -> None:
     with pytest.raises(ConfigError, match=rf"obstacle_unknown: .*'{name}'.*person_0.*red_cup"):
         robot.place_thing(name, None)
+    with pytest.raises(ConfigError, match=f"obstacle_unknown: .*'{name}'"):
+        robot.place_obstacle(1.0, 1.0, name=name)
     assert robot.scene(0.0).things == ()

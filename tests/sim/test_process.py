@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from sim.__main__ import main
+from tests.known import known
 from wire import DriveCommand, DriveState, Pose2, SimControl, SimTruth, distance, keys
 from wire.keys import Party
 from wire.session import Session, open_session
@@ -49,8 +50,19 @@ class Bench:
         self.seq = 0
         self.heard: set[str] = set()
         self.slowest_factor = 1.0
-        self.state: DriveState | None = None
-        self.truth: SimTruth | None = None
+        self._state: DriveState | None = None
+        self._truth: SimTruth | None = None
+
+    @property
+    def state(self) -> DriveState:
+        return known(self._state)
+
+    @property
+    def truth(self) -> SimTruth:
+        return known(self._truth)
+
+    def hears(self) -> bool:
+        return self._state is not None and self._truth is not None
 
     def until(self, done: Callable[[], bool], *, drive: float | None = None) -> None:
         """Listen, and drive at a wheel speed if given, until done."""
@@ -68,10 +80,10 @@ class Bench:
             time.sleep(0.01)
 
     def _listen(self) -> None:
-        self.state = self._states.newest() or self.state
-        self.truth = self._truths.newest() or self.truth
-        if self.truth is not None:
-            self.slowest_factor = min(self.slowest_factor, self.truth.real_time_factor)
+        self._state = self._states.newest() or self._state
+        self._truth = self._truths.newest() or self._truth
+        if self._truth is not None:
+            self.slowest_factor = min(self.slowest_factor, self._truth.real_time_factor)
         for name, subscriber in (("scan", self._scans), ("imu", self._imus)):
             if subscriber.newest() is not None:
                 self.heard.add(name)
@@ -80,8 +92,7 @@ class Bench:
         self._controls.put(SimControl(id="t1", place_robot=pose))
 
     def moved(self, metres: float) -> bool:
-        dock = Pose2(0.9, 0.8, 0.0)
-        return self.truth is not None and distance(self.truth.base_in_map, dock) > metres
+        return distance(self.truth.base_in_map, Pose2(0.9, 0.8, 0.0)) > metres
 
 
 @pytest.fixture
@@ -91,7 +102,7 @@ def bench(sim: subprocess.Popen[str], tmp_path: Path) -> Iterator[Bench]:
         open_session(Party.JUDGE, "r1", tmp_path) as judge,
     ):
         bench = Bench(bridge, judge)
-        bench.until(lambda: bench.state is not None and bench.truth is not None)
+        bench.until(bench.hears)
         yield bench
 
 
@@ -99,15 +110,12 @@ def test_it_obeys_stops_in_silence_and_ends_on_sigterm(
     sim: subprocess.Popen[str], bench: Bench
 ) -> None:
     bench.until(lambda: bench.moved(0.05) and bench.heard == {"scan", "imu"}, drive=2.0)
-    assert bench.state is not None
     assert (bench.state.echo_boot, bench.state.enabled) == ("b", True)
-    bench.until(lambda: bench.state is not None and bench.state.timed_out is True)
-    bench.until(lambda: bench.state is not None and not bench.state.enabled)
+    bench.until(lambda: bench.state.timed_out is True)
+    bench.until(lambda: not bench.state.enabled)
     target = Pose2(1.5, 4.2, 1.0)
     bench.place(target)
-    bench.until(
-        lambda: bench.truth is not None and distance(bench.truth.base_in_map, target) < 0.01
-    )
+    bench.until(lambda: distance(bench.truth.base_in_map, target) < 0.01)
     sim.send_signal(signal.SIGTERM)
     assert sim.wait(LIMIT_S) == 0
 
@@ -130,28 +138,18 @@ def test_after_a_freeze_it_skips_and_obeys_nothing_from_before(
     sim: subprocess.Popen[str], bench: Bench
 ) -> None:
     bench.until(lambda: bench.moved(0.05), drive=2.0)
-    assert bench.state is not None
     before = bench.state
     os.kill(sim.pid, signal.SIGSTOP)
     newest_before, frozen_s = bench.seq, time.monotonic()
     bench.until(lambda: time.monotonic() > frozen_s + 0.6, drive=2.0)
     os.kill(sim.pid, signal.SIGCONT)
-    bench.until(lambda: bench.state is not None and bench.state.stamp_s > before.stamp_s + 1.2)
+    bench.until(lambda: bench.state.stamp_s > before.stamp_s + 1.2)
     assert bench.state.echo_seq <= newest_before
     assert (bench.state.timed_out, bench.state.enabled) == (True, False)
     ticks_s = (bench.state.seq - before.seq) * 0.01
     assert ticks_s < bench.state.stamp_s - before.stamp_s - 0.4, "time was skipped"
     assert bench.slowest_factor < 0.9
-    bench.until(lambda: bench.state is not None and bench.state.enabled, drive=1.0)
-
-
-@pytest.fixture
-def signals_kept() -> Iterator[None]:
-    """Put this process's own signal handlers back."""
-    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGINT)}
-    yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
+    bench.until(lambda: bench.state.enabled, drive=1.0)
 
 
 @pytest.mark.usefixtures("signals_kept")

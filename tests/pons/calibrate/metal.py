@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from math import pi
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from pons.calibrate.findings import CalibrationFinding
 from pons.calibrate.procedure import CalibrationPlan, calibrate
+from pons.calibrate.session import CalibrationRig
 from sim import Hardware
 from tests.pons.calibrate.tape import Tape
 from tools.lockstep import LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Pose2, RobotDescription
 from wire.keys import Party
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from pons.calibrate.session import CalibrationRig
-    from wire.session import Session
+from wire.session import Session
 
 TRUE = Hardware(wheel_radius_m=0.1, wheel_separation_m=0.5)
 FACING = Pose2(0.9, 0.8, pi / 4)

@@ -6,17 +6,14 @@ lidar and by a person. A hand that says another thing than the first did is an e
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from pons.calibrate.session import CalibrationRig
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from wire import Record, Velocity
-    from wire.keys import Key
-    from wire.session import Session
+from wire import Record, Velocity
+from wire.keys import Key
+from wire.session import Session
 
 
 @dataclass

@@ -15,6 +15,7 @@ from pons.calibrate.findings import CalibrationFinding, findings, of_straight
 from pons.calibrate.procedure import CalibrationPlan
 from pons.calibrate.reference import TRUTH, went_m
 from pons.calibrate.runs import straight
+from tests.known import known
 from tests.pons.calibrate.metal import FACING, TRUE, Bench, gone_through
 from tools.lockstep import LockstepWorld
 from wire import Mode, Pose2, SimFault, distance
@@ -84,8 +85,7 @@ def test_a_person_measures_with_a_tape(driven: tuple[Bench, dict[str, Calibratio
     at: list[Pose2] = [began]
 
     def measure() -> float:
-        assert heard.truth is not None
-        here = heard.truth.base_in_map
+        here = known(heard.truth).base_in_map
         apart_m = distance(here, at[-1])
         at.append(here)
         return round(apart_m, 2)  # as a tape is read
@@ -113,11 +113,20 @@ def refusal(bench: Bench) -> str:
     return refused.value.code
 
 
-def test_a_robot_that_is_not_armed_is_left_alone() -> None:
+@pytest.mark.parametrize(
+    ("act", "code"),
+    [
+        (lambda world: (world.operate("disarm"), world.run(1.0)), "not_armed"),
+        (lambda world: world.operate("estop"), "estopped"),
+        (lambda world: world.sim.break_down(SimFault.LIDAR_BLIND), "no_lidar"),
+    ],
+)
+def test_a_robot_that_may_not_drive_is_left_alone(
+    act: Callable[[LockstepWorld], object], code: str
+) -> None:
     bench = Bench()
-    bench.world.operate("disarm")
-    bench.world.run(1.0)
-    assert refusal(bench) == "not_armed"
+    act(bench.world)
+    assert refusal(bench) == code
 
 
 def test_a_planner_that_drives_is_left_alone() -> None:
@@ -129,12 +138,6 @@ def test_a_planner_that_drives_is_left_alone() -> None:
     assert refused.value.code == "busy"
     bench.world.run(0.5)
     assert bench.world.status.mode is Mode.ACTIVE
-
-
-def test_a_pressed_stop_is_left_alone() -> None:
-    bench = Bench()
-    bench.world.operate("estop")
-    assert refusal(bench) == "estopped"
 
 
 def test_too_little_room_is_said_with_figures() -> None:
@@ -149,12 +152,6 @@ def test_another_robot_toml_is_refused() -> None:
     bench = Bench()
     bench.robot = bench.robot.model_copy(update={"id": "r2"})
     assert refusal(bench) == "other_robot_toml"
-
-
-def test_a_lidar_that_sees_nothing_is_refused() -> None:
-    bench = Bench()
-    bench.world.sim.break_down(SimFault.LIDAR_BLIND)
-    assert refusal(bench) == "no_lidar"
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import chain, repeat
 from math import cos, inf, pi, radians, sin, sqrt, tau
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import pytest
 
@@ -25,11 +25,8 @@ from pons.calibrate.clearance import (
 from pons.calibrate.errors import CalibrationRefusal
 from pons.calibrate.procedure import CalibrationPlan
 from pons.calibrate.reference import WallLook
+from pons.calibrate.session import CalibrationRig
 from wire import RobotDescription, Scan
-
-if TYPE_CHECKING:
-    from pons.calibrate.session import CalibrationRig
-
 
 ROBOT = RobotDescription()
 RADIUS_M = ROBOT.base.radius_m

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import pytest
 
 from pons.calibrate.session import PASSES_S, PERIOD_S, QUIET_S, CalibrationRig
 from tests.wire.examples import EXAMPLES, STATUS
-from wire import Action, DriveState, Mode, RowReport, Scan
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from wire import Record
-    from wire.keys import Key
-    from wire.session import Session
+from wire import Action, DriveState, Mode, Record, RowReport, Scan
+from wire.keys import Key
+from wire.session import Session
 
 PATIENCE_S = 30.0
 

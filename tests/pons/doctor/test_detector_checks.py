@@ -11,6 +11,7 @@ import pytest
 from planner.perception.detect.decoders import ALL
 from pons.doctor.detector_checks import detector
 from pons.doctor.finding import HealthFinding, HealthVerdict
+from tests.known import known
 from tests.planner.perception.detect import tiny
 from wire import RobotDescription
 
@@ -52,21 +53,16 @@ def test_one_that_is_refused_has_its_code_its_shapes_and_the_layouts(tmp_path: P
     assert found.verdict is HealthVerdict.FAIL
     assert found.found.en.startswith("model_layout_unknown: ")
     assert "boxes 10x5; expected for rtdetr labels n, boxes n x 4" in found.found.en
-    assert found.fix is not None
-    assert all(layout in found.fix.en and layout in found.fix.zh for layout in ALL)
+    assert all(layout in known(found.fix).en and layout in known(found.fix).zh for layout in ALL)
     assert any(ord(letter) > 0x2E80 for letter in found.found.zh)
 
 
-def test_settings_that_can_t_be_read_are_said(tmp_path: Path) -> None:
-    assert looked(tmp_path, "modle = 1").verdict is HealthVerdict.FAIL
-
-
-def test_settings_that_can_t_be_read_have_their_own_cure(tmp_path: Path) -> None:
-    (tmp_path / "settings.toml").write_text("[mission]\nbogus = 1\n")
-    found = detector(tmp_path, RobotDescription())
+@pytest.mark.parametrize("text", ["[vision]\nmodle = 1\n", "[mission]\nbogus = 1\n"])
+def test_settings_that_can_t_be_read_have_their_own_cure(tmp_path: Path, text: str) -> None:
+    (tmp_path / "settings.toml").write_text(text)
+    found = detector(tmp_path, RobotDescription.model_validate({"camera": {"kind": "sim"}}))
     assert found.verdict is HealthVerdict.FAIL
-    assert found.fix is not None
-    assert found.fix.en == "mend settings.toml"
+    assert known(found.fix).en == "mend settings.toml"
 
 
 def test_without_any_it_warns_that_nothing_is_seen(

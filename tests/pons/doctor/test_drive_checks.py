@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -15,11 +14,12 @@ from pons.doctor import drive_checks
 from pons.doctor.finding import HealthVerdict
 from pons.robot.command import describe_code
 from sim.twin.line import TwinLine
+from tests.known import known
+from tests.pons.doctor.speaking import speaking
 from tests.wire.examples import EXAMPLES
 from wire import Action, RobotDescription, RowReport, Status, keys
 from wire.drive_config import DRIVE_KINDS, DriveKind
 from wire.keys import Party
-from wire.session import open_session
 from wire.trial_record import TrialRecord, wiring_of
 
 
@@ -88,8 +88,7 @@ def test_a_port_that_is_not_there_or_none_is_named_with_its_cure(tmp_path: Path)
         found = drive_checks.drive(tmp_path, at(port))
         assert found.verdict is HealthVerdict.FAIL
         assert found.found.en.startswith(f"{code}: drive.port {port}")
-        assert found.fix is not None
-        assert any(ord(letter) > 0x2E80 for letter in found.fix.zh)
+        assert any(ord(letter) > 0x2E80 for letter in known(found.fix).zh)
 
 
 def test_who_holds_the_port_is_named_unless_it_is_our_own_bridge(
@@ -107,9 +106,8 @@ def test_a_port_that_one_may_not_open_is_named_with_its_group(
     monkeypatch.setattr("os.access", lambda *_, **__: False)
     found = drive_checks.drive(tmp_path, at(line))
     assert found.found.en == f"port_forbidden: drive.port {line}"
-    assert found.fix is not None
     cure = describe_code("port_forbidden", describe_port(line).group)
-    assert (found.fix.en, found.fix.zh) == cure
+    assert (known(found.fix).en, known(found.fix).zh) == cure
 
 
 @pytest.mark.parametrize("silent", ["ENC_STALE", "drive", ""])
@@ -125,25 +123,13 @@ def test_a_running_bridge_is_asked_whether_it_hears_the_base(
     }
     none: dict[str, object] = {"robot": "r1", "rows": (), "waiting_for": ("lidar",)}
     said = status.model_copy(update=none | up.get(silent, {}))
-    ending = threading.Event()
-    with open_session(Party.BRIDGE, "r1", tmp_path) as session:
-        mouth = session.publisher(keys.STATUS)
-
-        def speak() -> None:
-            while not ending.wait(0.02):
-                mouth.put(said)
-
-        thread = threading.Thread(target=speak)
-        thread.start()
+    with speaking(Party.BRIDGE, tmp_path, (keys.STATUS, said)):
         found = drive_checks.drive(tmp_path, at(line))
         with SerialPort(line, 115_200):  # by this program, which is no bridge
             held = drive_checks.drive(tmp_path, at(line))
         gone = drive_checks.drive(tmp_path, at(tmp_path / "none"))
-        ending.set()
-        thread.join()
     assert found.verdict is (HealthVerdict.FAIL if silent else HealthVerdict.OK)
     assert found.found.en.startswith("base_silent: the bridge gets no state" if silent else "held")
     assert held.found.en.startswith("port_busy" if silent else "held")
-    assert gone.found.en.startswith(
-        "port_missing" if silent else "held"
-    )  # a twin's, where it hears
+    # Where it hears, the port is a twin's.
+    assert gone.found.en.startswith("port_missing" if silent else "held")

@@ -7,8 +7,9 @@ from typing import Any
 
 import pytest
 
-from pons.doctor import gyro_checks
+from pons.doctor import gyro_checks, path_checks
 from pons.doctor.finding import HealthVerdict
+from pons_assets import ROBOTS
 from sensors.imu.bus import ImuTrouble
 from sim.twin.imu_chips import Mpu6050Twin
 from wire import RobotDescription
@@ -67,3 +68,10 @@ def test_a_chip_is_read_and_a_missing_bus_named(
     found = gyro_checks.gyro(tmp_path, described)
     assert found.verdict is HealthVerdict.WARN, "which way it turns nobody has seen"
     assert "mpu6050" in found.found.en
+
+
+@pytest.mark.parametrize("preset", sorted(ROBOTS.glob("*.toml")), ids=lambda path: path.stem)
+def test_the_doctor_finds_no_fault_in_a_preset(preset: Path, tmp_path: Path) -> None:
+    described, robot = path_checks.robot(preset)
+    assert described.verdict is not HealthVerdict.FAIL
+    assert gyro_checks.gyro(tmp_path, robot).verdict is not HealthVerdict.FAIL

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pons.doctor import lidar_checks, running_process
 from pons.doctor.finding import HealthVerdict
 from sim.twin import LidarTwin
+from tests.pons.doctor.speaking import speaking
 from wire import LidarStatus, RobotDescription, keys
 from wire.keys import Party
 from wire.lidar_config import LidarConfig
@@ -100,21 +101,9 @@ def test_a_running_process_is_asked_and_its_port_left_alone(
     tmp_path: Path, code: str | None
 ) -> None:
     said = STATUS.model_copy(update={"code": code, "detail": "61 of 800" if code else ""})
-    ending = threading.Event()
-    with open_session(Party.LIDAR, "r1", tmp_path) as session:
-        publisher = session.publisher(keys.LIDAR_STATE)
-
-        def say() -> None:
-            while not ending.wait(0.02):
-                publisher.put(said)
-
-        thread = threading.Thread(target=say)
-        thread.start()
-        found = lidar_checks.lidar(
-            tmp_path, described(kind="ld19", port=f"/dev/{secrets.token_hex(4)}")
-        )
-        ending.set()
-        thread.join()
+    robot = described(kind="ld19", port=f"/dev/{secrets.token_hex(4)}")
+    with speaking(Party.LIDAR, tmp_path, (keys.LIDAR_STATE, said)):
+        found = lidar_checks.lidar(tmp_path, robot)
     assert found.verdict is (HealthVerdict.FAIL if code else HealthVerdict.OK)
     assert (code or "10.0 turns/s, 2 of 502 frames spoilt") in found.found.en
 

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from pons.doctor import ros2_checks, running_process
 from pons.doctor.finding import HealthVerdict
+from tests.known import known
+from tests.pons.doctor.speaking import speaking
 from tests.ros2.words import robot
 from tests.wire.examples import EXAMPLES
-from wire import Nav2State, Record, RobotDescription, Ros2Status, keys
-from wire.keys import Key, Party
+from wire import Nav2State, RobotDescription, Ros2Status, keys
+from wire.keys import Party
 from wire.ros2_config import Nav2Config
 from wire.session import open_session
 
@@ -31,8 +29,7 @@ from wire.session import open_session
     ],
 )
 def test_a_node_that_others_reach_is_told(node: str, is_open: bool) -> None:
-    config = robot(node=node).ros2
-    assert config is not None
+    config = known(robot(node=node).ros2)
     verdict = HealthVerdict.WARN if is_open else HealthVerdict.OK
     assert ros2_checks._describe(config, None, "").verdict is verdict
 
@@ -41,29 +38,8 @@ def test_without_ros2_there_is_nothing_to_look_at(tmp_path: Path) -> None:
     assert ros2_checks.ros2(tmp_path, RobotDescription()).verdict is HealthVerdict.OK
 
 
-@contextmanager
-def speaking(home: Path, *said: tuple[Key[Any], Record]) -> Iterator[None]:
-    """Let the process say these again and again."""
-    ending = threading.Event()
-    with open_session(Party.ROS2, "r1", home) as session:
-        publishers = [(session.publisher(key), message) for key, message in said]
-
-        def say() -> None:
-            while not ending.wait(0.02):
-                for publisher, message in publishers:
-                    publisher.put(message)
-
-        thread = threading.Thread(target=say, daemon=True)
-        thread.start()
-        try:
-            yield
-        finally:
-            ending.set()
-            thread.join()
-
-
 def test_a_process_that_runs_is_heard_instead(tmp_path: Path) -> None:
-    with speaking(tmp_path, (keys.ROS2_STATE, EXAMPLES[Ros2Status])):
+    with speaking(Party.ROS2, tmp_path, (keys.ROS2_STATE, EXAMPLES[Ros2Status])):
         found = ros2_checks.ros2(tmp_path, robot())
     assert found.verdict is HealthVerdict.FAIL
     assert "ros2_no_base" in found.found.en
@@ -71,17 +47,17 @@ def test_a_process_that_runs_is_heard_instead(tmp_path: Path) -> None:
 
 def test_where_nav2_drives_its_velocity_is_looked_at_too(tmp_path: Path) -> None:
     by_nav2 = robot()
-    assert by_nav2.ros2 is not None
-    ros2 = by_nav2.ros2.model_copy(update={"nav2": Nav2Config()})
+    ros2 = known(by_nav2.ros2).model_copy(update={"nav2": Nav2Config()})
     by_nav2 = by_nav2.model_copy(update={"ros2": ros2})
     well = EXAMPLES[Ros2Status].model_copy(update={"code": None, "detail": ""})
     missing = {"code": "ros2_topic_missing", "detail": "the graph has no /cmd_vel_nav; start it"}
     state = EXAMPLES[Nav2State].model_copy(update=missing)
-    with speaking(tmp_path, (keys.ROS2_STATE, well), (keys.NAV2_STATE, state)):
+    hears = keys.ROS2_STATE, well
+    with speaking(Party.ROS2, tmp_path, hears, (keys.NAV2_STATE, state)):
         found = ros2_checks.ros2(tmp_path, by_nav2)
     assert found.verdict is HealthVerdict.FAIL
     assert found.found.en == "ros2_topic_missing: the graph has no /cmd_vel_nav"
-    with speaking(tmp_path, (keys.ROS2_STATE, well), (keys.NAV2_STATE, EXAMPLES[Nav2State])):
+    with speaking(Party.ROS2, tmp_path, hears, (keys.NAV2_STATE, EXAMPLES[Nav2State])):
         assert ros2_checks.ros2(tmp_path, by_nav2).verdict is HealthVerdict.OK
 
 

@@ -20,11 +20,13 @@ from planner.brain.scripted import Reply
 from planner.orders.factory import standing_orders_of
 from planner.settings import OrderSettings
 from planner.state_database import StateDatabase
+from pons.__main__ import main
 from pons.mcp.http_door import AgentsOnly, build_app
 from pons.mcp.planner_door import TOKEN, PlannerDoor
 from pons.mcp.server import build_server
 from pons.mcp.views import goal_view, memory_view
 from tests.conftest import ROOT
+from tests.known import known
 from tests.planner.api.fakes import FakeServices, two_room
 from tests.planner.api.served import BASE
 from tests.planner.api.test_agents import ACCESS, PEOPLE
@@ -61,8 +63,7 @@ async def robot(
 
 def told(result: CallToolResult) -> dict[str, Any]:
     assert not result.is_error, result.content
-    assert result.structured_content is not None
-    return dict(result.structured_content)
+    return dict(known(result.structured_content))
 
 
 def refusal(result: CallToolResult) -> str:
@@ -81,6 +82,15 @@ def names_in(schema: object) -> Iterator[str]:
             yield from names_in(value)
 
 
+def test_the_help_has_a_sentence_and_examples(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["mcp", "--help"])
+    told = capsys.readouterr().out
+    assert ended.value.code == 0
+    assert "Serve this robot over MCP" in told
+    assert "\nexamples:\n  pons mcp" in told
+
+
 def test_tools_are_few_typed_hinted_and_name_no_velocity_and_no_coordinate() -> None:
     async def story() -> None:
         async with Client(build_server(PlannerDoor(BASE))) as client:
@@ -91,8 +101,7 @@ def test_tools_are_few_typed_hinted_and_name_no_velocity_and_no_coordinate() -> 
         for tool in tools:
             assert tool.description
             assert tool.output_schema is not None, tool.name
-            assert tool.annotations is not None
-            assert tool.annotations.read_only_hint is (
+            assert known(tool.annotations).read_only_hint is (
                 tool.name not in ("order", "answer", "cancel", "stop", "look")
             )
             names = {*names_in(tool.input_schema), *names_in(tool.output_schema)}

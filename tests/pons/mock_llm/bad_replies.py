@@ -1,4 +1,4 @@
-"""Write bad copies of a good reply, and hostile replies, which must never move a robot. Pure."""
+"""Write plans to nowhere, and hostile replies, which must never move a robot. Pure."""
 
 from __future__ import annotations
 
@@ -18,31 +18,6 @@ def hallucinate(reply: dict[str, Any]) -> dict[str, Any]:
         for i, step in enumerate(steps)
     ]
     return {"kind": "plan", "steps": moved}
-
-
-def shape_reply(fault: str | None, text: str, place: str = "kitchen") -> str | None:
-    """Return a good reply as a fault writes it; ``place`` exists in the closed world."""
-    other = '{"kind":"plan","steps":[{"kind":"return_home"}]}'
-    match fault:
-        case "fenced":
-            return f"Here is the plan you asked for:\n```json\n{text}\n```\nHave a nice day!"
-        case "thinking":
-            return f"<think>Perhaps {other}? No.</think>\n{text}"
-        case "thoughts_only":
-            return f"<think>Perhaps {other}? Perhaps {text}? Who knows"
-        case "twice":
-            return f"{text}\n{text}"
-        case "two_plans":
-            return f'{text}\n{{"kind":"plan","steps":[{{"kind":"wait","seconds":599}}]}}'
-        case "truncated" | "length":
-            return text[: max(1, len(text) - 7)]
-        case "wrong_types":
-            return _plan({"kind": "go_to", "place": 7}, {"kind": "wait", "seconds": "soon"})
-        case "refuse_and_plan":
-            steps = [{"kind": "go_to", "place": place}]
-            said = {"code": "unsafe", "en": "No.", "zh": "不。"}
-            return _dump({"kind": "refuse", **said, "steps": steps})
-    return None if fault == "null" else text
 
 
 def hostile(number: int, place: str) -> str:

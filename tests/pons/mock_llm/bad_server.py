@@ -6,30 +6,37 @@ import asyncio
 import itertools
 import json
 import time
-from typing import TYPE_CHECKING, Any
+from collections.abc import AsyncIterator, Callable
+from typing import Any
 
+from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from planner.brain import ThinkRequest
-from planner.plan import StepPlan
 from pons.mock_llm import MockServer, Switches
-from pons.mock_llm.completion import EVENTS, Cut
+from pons.mock_llm.completion import EVENTS, completion, events
 from pons.mock_llm.replies import reply_of
-from pons.mock_llm.server import LOOK_S
-from tests.pons.mock_llm import bad_pictures, bad_streams
-from tests.pons.mock_llm.bad_answers import BARREN, refusal_of
-from tests.pons.mock_llm.bad_completion import bad_completion, bytes_of
-from tests.pons.mock_llm.bad_replies import hallucinate, hostile, shape_reply
+from pons.mock_llm.server import LOOK_S, error
+from tests.pons.mock_llm.bad_replies import hallucinate, hostile
 from tests.pons.mock_llm.faults import BadSwitches
-from tests.pons.mock_llm.pictures import asked_of, dicts
-
-if TYPE_CHECKING:
-    from starlette.requests import Request
 
 Body = dict[str, Any]
-_WELL = (None, "status", "hang", "cold", "garbage", "stream_breaks")
-"""Left to the server that is shipped."""
-_PLAINLY = ("plain", "not_json", "no_choices", "error_200", "packed")
+METADATA = "http://169.254.169.254/latest/meta-data/"
+HUGE_BYTES, CHUNK = 1_000_000_000, 64 * 1024
+OPEN_S = 0.2
+"""Between two comments of a stream that is left open."""
+NO_FORMAT = "response_format and tools are not supported by this model"
+CONTEXT = "the request exceeds the available context size (n_ctx 1024), try increasing it"
+BROKEN_CHOICE = (
+    b'data: {"choices":[{"index":0,"delta":{"content":""},"finish_reason":"error"}],'
+    b'"error":{"code":502,"message":"Provider disconnected"}}\n\ndata: [DONE]\n\n'
+)
+BARREN: dict[str | None, Callable[[Body], bool]] = {
+    "schema_barren": lambda body: _format(body) == "json_schema",
+    "strict_barren": lambda body: bool(_format(body)) or "tools" in body,
+    "tool_never": lambda body: "tools" in body,
+}
+"""Ways of asking that are taken and bring nothing."""
 
 
 class BadServer(MockServer):
@@ -37,19 +44,30 @@ class BadServer(MockServer):
 
     def __init__(self, switches: BadSwitches | None = None) -> None:
         super().__init__(switches or BadSwitches())
-        self._hostile, self._badly = itertools.count(), itertools.count()
+        self._hostile = itertools.count()
         self.is_loaded = False
         """Told of a cold model alone."""
         self.left_load = 0
         """Clients that left while it loaded, and so ended the load."""
 
     async def instead(self, fault: str | None, body: Body, request: Request) -> Response | None:
-        if fault == "slow_pictures" and bad_pictures.holds_picture(body):
-            return await self.hang(request)
-        if fault == "cold":
-            await self._load(request)
-        refused = refusal_of(fault, body, self.switches.retry_after)
-        return refused or await super().instead(fault, body, request)
+        wait = self.switches.retry_after
+        match fault:
+            case "cold":
+                await self._load(request)
+            case "loading":
+                return error(503, "Loading model", {} if wait is None else {"Retry-After": wait})
+            case "small_context":
+                return error(400, CONTEXT)
+            case "redirect":
+                return Response(status_code=307, headers={"Location": METADATA})
+            case "no_json_schema" if _format(body) == "json_schema":
+                return error(400, "This response_format type is unavailable now")
+            case "no_schema" if _format(body) or "tools" in body:
+                return error(400, NO_FORMAT)
+            case "tool_never" if _format(body):
+                return error(400, "response_format is not supported")
+        return await super().instead(fault, body, request)
 
     async def _load(self, request: Request) -> None:
         """Load a cold model while this client stays; one that leaves ends the load."""
@@ -69,27 +87,10 @@ class BadServer(MockServer):
     def report(self) -> dict[str, Any]:
         return {**super().report(), "left_load": self.left_load}
 
-    def tell_picture(self, fault: str | None, body: Body, place: str) -> str | None:
-        about = asked_of(body)
-        if about is None:
-            return None
-        return bad_pictures.answer_badly(about, fault, next(self._badly), place)
-
     async def plan(self, fault: str | None, asked: ThinkRequest, body: Body) -> dict[str, Any]:
-        if fault == "obeys_pictures":
-            asked = await self._obey(asked, bad_pictures.words_read(body))
-        if fault in ("obeys_pictures", "schema_ignored"):
+        if fault == "schema_ignored":
             return reply_of((await self.brain.think(asked)).plan, asked.text)
         return only_reply(body) or await super().plan(fault, asked, body)
-
-    async def _obey(self, asked: ThinkRequest, told: list[str]) -> ThinkRequest:
-        """Return the order that a planner follows which takes what it reads for orders."""
-        for words in told:
-            wanted = asked.model_copy(update={"text": words, "language": None})
-            if isinstance((await self.brain.think(wanted)).plan, StepPlan):
-                return wanted
-        vaguely = bad_pictures.vague_order("\n".join(told), [*asked.vocabulary.by_id])
-        return asked if vaguely is None else asked.model_copy(update={"text": vaguely})
 
     def write(
         self, fault: str | None, good: str, place: str, body: Body, request: Request
@@ -102,59 +103,71 @@ class BadServer(MockServer):
                 return json.dumps(hallucinate(json.loads(good)), ensure_ascii=False), body
             case "hostile":
                 return hostile(next(self._hostile), place), body
-            case "echo_key":
-                words = f"the key is {request.headers.get('authorization', 'none')}"
-                return json.dumps({"kind": "answer", "en": words, "zh": words}), body
-            case "garbage":
-                return super().write(fault, good, place, body, request)
-        return shape_reply(fault, good, place), body
+            case "fenced":
+                return f"Here is your plan:\n```json\n{good}\n```\nHave a nice day!", body
+        return super().write(fault, good, place, body, request)
 
     async def send(self, fault: str | None, text: str | None, body: Body) -> Response:
-        if fault in _WELL:
-            return await super().send(fault, text, body)
-        whole = bad_completion(body, text, fault)
-        raw, headers = bytes_of(whole, fault)
-        json_type = headers.pop("Content-Type", "application/json")
-        match fault:
-            case "endless":
-                return StreamingResponse(bad_streams.endless(self.ending), media_type=json_type)
-            case "huge":
-                size = {"Content-Length": str(bad_streams.HUGE_BYTES)}
-                parts = bad_streams.huge(self.ending)
-                return StreamingResponse(parts, media_type=json_type, headers=size)
-            case "drip":
-                return StreamingResponse(bad_streams.drip(raw, self.ending), media_type=json_type)
-            case "lost":
-                return Cut(bad_streams.half(raw), json_type)
-        if body.get("stream") is True and fault not in _PLAINLY:
-            rate = self.switches.tokens_per_s
-            parts = bad_streams.bad_events(whole, fault, rate, self.ending, self.wrote)
-            return StreamingResponse(parts, media_type=EVENTS)
-        return Response(raw, media_type=json_type, headers=headers)
+        if fault == "error_200":
+            return Response(b'{"error":{"message":"the backend failed","code":500}}')
+        if fault == "huge":
+            size = {"Content-Length": str(HUGE_BYTES)}
+            return StreamingResponse(self._huge(), headers=size, media_type="application/json")
+        if body.get("stream") is True and (fault or "").startswith("stream_"):
+            whole = events(completion(body, text), None, self.wrote)
+            parts = self._stream(fault, whole)
+            if fault != "stream_breaks":
+                return StreamingResponse(parts, media_type=EVENTS)
+        return await super().send(fault, text, body)
+
+    async def _stream(self, fault: str | None, whole: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
+        """Send a stream's beginning, then what is wrong with it."""
+        parts = [part async for part in whole]
+        *deltas, finish, usage, done = parts
+        if fault == "stream_error_choice":
+            for part in (*deltas[: max(2, len(deltas) // 2)], BROKEN_CHOICE):
+                yield part
+            return
+        for part in (*deltas, finish) if fault == "stream_open" else deltas:
+            yield part
+        while not self.ending():
+            yield b": still here\n\n"
+            await asyncio.sleep(OPEN_S)
+        yield usage + done
+
+    async def _huge(self) -> AsyncIterator[bytes]:
+        """Write 1 GB, as announced."""
+        head, tail = b'{"choices":[{"message":{"role":"assistant","content":"', b'"}}]}'
+        yield head
+        left = HUGE_BYTES - len(head) - len(tail)
+        while left > 0 and not self.ending():
+            yield b"a" * min(CHUNK, left)
+            left -= CHUNK
+            await asyncio.sleep(0)  # or all of it is written, to nobody, when the client has left
+        yield tail
 
 
-def only_reply(body: dict[str, Any]) -> dict[str, Any] | None:
+def _format(body: Body) -> str:
+    wanted = body.get("response_format")
+    return str(wanted.get("type", "")) if isinstance(wanted, dict) else ""
+
+
+def only_reply(body: Body) -> Body | None:
     """Return the one reply that the request's schema allows, or None where it leaves a choice.
 
     The mock's model is none that a schema could hold, but for one that leaves nothing to it.
     """
-    form, tools = body.get("response_format"), dicts(body.get("tools"))
+    form, tools = body.get("response_format"), body.get("tools")
     schema = form.get("json_schema", {}).get("schema") if isinstance(form, dict) else None
     if schema is None and tools:
-        schema = tools[0].get("function", {}).get("parameters")
-    if not isinstance(schema, dict):
+        schema = tools[0]["function"]["parameters"]
+    if not isinstance(schema, dict) or "properties" not in schema or "required" not in schema:
         return None
-    fields, required = schema.get("properties"), schema.get("required")
-    if not isinstance(fields, dict) or not isinstance(required, list):
-        return None
-    filled = {name: _only_value(shape) for name, shape in fields.items() if name in required}
+    fields = schema["properties"]
+    filled = {name: _only_value(fields[name]) for name in schema["required"]}
     return filled if filled and None not in filled.values() else None
 
 
-def _only_value(shape: object) -> object:
-    if not isinstance(shape, dict):
-        return None
-    words = shape.get("enum")
-    if isinstance(words, list) and len(words) == 1:
-        return words[0]
-    return False if shape.get("type") == "boolean" else None
+def _only_value(shape: Body) -> object:
+    words = shape.get("enum", ())
+    return words[0] if len(words) == 1 else False if shape.get("type") == "boolean" else None

@@ -14,7 +14,6 @@ import uvicorn
 from pons.mock_llm import build
 from tests.pons.mock_llm.bad_server import BadServer
 from tests.pons.mock_llm.faults import BadSwitches
-from tests.pons.mock_llm.voices import add_voices
 
 START_LIMIT_S = 20.0
 
@@ -45,9 +44,7 @@ class RunningMock:
 def running_mock(switches: BadSwitches | None = None) -> Iterator[RunningMock]:
     """Serve until the block ends; what hangs lets go."""
     mock = BadServer(switches)
-    app = build(mock)
-    add_voices(app, mock)
-    config = uvicorn.Config(app, log_level="error", timeout_graceful_shutdown=0)
+    config = uvicorn.Config(build(mock), log_level="error", timeout_graceful_shutdown=0)
     server = uvicorn.Server(config)
     mock.ending = lambda: server.should_exit
     with socket.socket() as ears:

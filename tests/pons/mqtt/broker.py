@@ -7,17 +7,13 @@ import socket
 import subprocess
 import time
 from contextlib import suppress
-from datetime import UTC, datetime, timedelta
-from ipaddress import ip_address
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Self
 
 import pytest
-from cryptography import x509
-from cryptography.hazmat.primitives import hashes, serialization
-from cryptography.hazmat.primitives.asymmetric import ec
-from cryptography.x509.oid import NameOID
 
+from pons.authority import issue
 from pons.robot_processes import free_port
 
 USER, PASSWORD = "robot", "s3cret word"
@@ -38,9 +34,9 @@ class Broker:
     def __init__(self, folder: Path) -> None:
         self._program, self._folder = require_mosquitto(), folder
         self.port = free_port()
-        self.ca_file = folder / "broker-ca.crt"
+        issued = issue(folder, "broker", {"127.0.0.1"}, set(), datetime.now(UTC))
+        self.ca_file = issued.authority
         self._process: subprocess.Popen[bytes] | None = None
-        _certify(folder)
         passwords = folder / "passwords"
         passwords.touch(0o600)
         subprocess.run(
@@ -50,7 +46,7 @@ class Broker:
         )
         (folder / "mosquitto.conf").write_text(
             f"listener {self.port} 127.0.0.1\nallow_anonymous false\npassword_file {passwords}\n"
-            f"cafile {self.ca_file}\ncertfile {folder}/broker.crt\nkeyfile {folder}/broker.key\n"
+            f"cafile {self.ca_file}\ncertfile {issued.planner}\nkeyfile {issued.planner}\n"
             f"persistence false\nlog_type error\nuser root\nmax_queued_messages 10000\n"
         )
 
@@ -97,37 +93,3 @@ class Broker:
             f'[mqtt]\nhost = "127.0.0.1"\nport = {port or self.port}\nca_file = "{self.ca_file}"\n'
             f'username = "{USER}"\npassword_file = "{secret.name}"\npicture_s = 1.0\n'
         )
-
-
-def _certify(folder: Path) -> None:
-    """Write an authority and the certificate of 127.0.0.1 that it has signed."""
-    now = datetime.now(UTC)
-    ca_key, key = (ec.generate_private_key(ec.SECP256R1()) for _ in range(2))
-
-    def build(name: str, issuer: str, of: ec.EllipticCurvePrivateKey, *, is_ca: bool) -> bytes:
-        names = [x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, n)]) for n in (name, issuer)]
-        built = (
-            x509.CertificateBuilder()
-            .subject_name(names[0])
-            .issuer_name(names[1])
-            .public_key(of.public_key())
-            .serial_number(x509.random_serial_number())
-            .not_valid_before(now - timedelta(days=1))
-            .not_valid_after(now + timedelta(days=1))
-            .add_extension(x509.BasicConstraints(ca=is_ca, path_length=None), critical=True)
-            .add_extension(
-                x509.SubjectAlternativeName([x509.IPAddress(ip_address("127.0.0.1"))]),
-                critical=False,
-            )
-        )
-        return built.sign(ca_key, hashes.SHA256()).public_bytes(serialization.Encoding.PEM)
-
-    (folder / "broker-ca.crt").write_bytes(build("ca", "ca", ca_key, is_ca=True))
-    (folder / "broker.crt").write_bytes(build("broker", "ca", key, is_ca=False))
-    (folder / "broker.key").write_bytes(
-        key.private_bytes(
-            serialization.Encoding.PEM,
-            serialization.PrivateFormat.PKCS8,
-            serialization.NoEncryption(),
-        )
-    )

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Literal
 
 from bridge.drive import SerialDrive
 from bridge.drive.serial_drive import SERIAL_PROTOCOLS
+from sim.twin.line import TwinLine
 from sim.twin.stand import TICK_S, WheelStand, Wires
 from tools.lockstep.drive_process import BaseEnd
 from tools.lockstep.serial_line import SerialLine
 from wire import DriveCommand, RobotDescription
 
-__all__ = ["START_S", "TICK_S", "Stand", "Wires"]
+__all__ = ["Stand", "Wires", "alive"]
 
 START_S = 1000.0
 
@@ -72,3 +78,25 @@ class Stand:
         self.drive.write(
             DriveCommand(boot="trial", seq=self._seq, left_radps=0.0, right_radps=0.0, enable=False)
         )
+
+
+@contextmanager
+def alive(stand: Stand, link: Path, also: Callable[[], None] = lambda: None) -> Iterator[None]:
+    """Let a stand live at a real line, in real time, until the block ends."""
+    line, ending, began_s = TwinLine(link), threading.Event(), time.monotonic()
+    stand.wheels.end = line
+
+    def live() -> None:
+        while not ending.wait(TICK_S / 4):
+            while began_s + stand.time_s - START_S < time.monotonic():
+                stand.wait()
+            also()
+
+    thread = threading.Thread(target=live)
+    thread.start()
+    try:
+        yield
+    finally:
+        ending.set()
+        thread.join()
+        line.close()

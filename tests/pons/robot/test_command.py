@@ -16,7 +16,7 @@ from devices.port_probe import PortAnswer
 from pons.__main__ import main
 from pons.robot.command import CODES, camera_part, describe, describe_cameras, robot_part
 from pons.robot.port_finder import PortFinding
-from tests.pons.robot.twin_ports import PlayedController, PlayedLidar, entry, played
+from tests.pons.robot.twin_ports import PlayedBase, PlayedLidar, entry, played
 from wire import RobotDescription
 
 LIDAR = PortFinding(
@@ -94,7 +94,7 @@ def test_twins_and_who_takes_ports_are_told_and_nothing_moves_the_cursor() -> No
 def test_a_person_finds_base_and_lidar(capsys: pytest.CaptureFixture[str]) -> None:
     with TemporaryDirectory(prefix="pons-find-") as folder:
         base, lidar = Path(folder, "base"), Path(folder, "lidar")
-        with played([PlayedController(base), PlayedLidar(lidar, "ld19", None)]):
+        with played([PlayedBase(base, "pons_mcu"), PlayedLidar(lidar, "ld19", None)]):
             assert main(["robot", "find", "--port", str(base), "--port", str(lidar)]) == 0
             said = capsys.readouterr().out
             assert main(["robot", "find", "--port", str(lidar), "--json"]) == 0

@@ -19,10 +19,10 @@ from pons.robot.command import describe
 from pons.robot.port_finder import PROBES, PortFinding, question_port, question_ports
 from sim.twin.lidar import LIDAR_TWINS, LidarFirmware
 from sim.twin.twin import FIRMWARES
+from tests.known import known
 from tests.pons.robot.twin_ports import (
     BASES,
     PlayedBase,
-    PlayedController,
     PlayedLidar,
     PlayedNoise,
     entry,
@@ -31,7 +31,6 @@ from tests.pons.robot.twin_ports import (
 from wire.drive_config import DRIVE_KINDS
 from wire.lidar_config import LidarConfig
 
-BASES_OF_OTHERS = sorted(BASES.keys() - {"pons_mcu"})
 LIDARS = {"_".join(filter(None, key)): key for key in LIDAR_TWINS}
 QUESTIONS = sorted({probe.question for probe in PROBES if probe.question})
 TURNING = "rplidar that turns"
@@ -43,28 +42,20 @@ def found() -> Iterator[dict[str, PortFinding]]:
     with TemporaryDirectory(prefix="pons-find-") as folder:
         paths = {name: Path(folder, name.replace(" ", "_")) for name in LIDARS}
         devices = {name: PlayedLidar(paths[name], *key) for name, key in LIDARS.items()}
-        paths |= {
-            name: Path(folder, name) for name in ("mcu", "unknown", "silent", *BASES_OF_OTHERS)
-        }
+        paths |= {name: Path(folder, name) for name in ("unknown", "silent", *BASES)}
         paths[TURNING] = Path(folder, "turning")
         turning = PlayedLidar(paths[TURNING], "rplidar", "a1")
         turning.twin.firmware.tick(b"\xa5\x20", 0.0, lambda angles: (1.0,) * len(angles))
-        others = [
-            PlayedController(paths["mcu"]), PlayedNoise(paths["unknown"], 20),
-            PlayedNoise(paths["silent"], 0), turning,
-            *(PlayedBase(paths[kind], kind) for kind in BASES_OF_OTHERS),
-        ]  # fmt: skip
-        with played([*devices.values(), *others]):
+        noises = PlayedNoise(paths["unknown"], 20), PlayedNoise(paths["silent"], 0)
+        bases = {kind: PlayedBase(paths[kind], kind) for kind in BASES}
+        with played([*devices.values(), turning, *noises, *bases.values()]):
             findings = question_ports([entry(path) for path in paths.values()])
             found = dict(zip(paths, findings, strict=True))
             for name in (name for name in LIDARS if found[name].code == "port_silent"):
                 # So many threads at once may starve one; alone it has to answer.
                 (found[name],) = question_ports([entry(paths[name])])
         yield found
-        assert isinstance(others[0], PlayedController)
-        assert not others[0].moved
-        bases = [one for one in others if isinstance(one, PlayedBase)]
-        assert [one.moved for one in bases] == [False] * len(BASES_OF_OTHERS)
+        assert [kind for kind, base in bases.items() if base.moved] == []
 
 
 @pytest.mark.parametrize("name", sorted(LIDARS))
@@ -72,27 +63,21 @@ def test_each_lidar_is_named_with_its_model(name: str, found: dict[str, PortFind
     kind, model = LIDARS[name]
     one = found[name]
     assert (one.code, one.part, one.kind) == ("port_found", "lidar", kind), one
-    assert one.answer is not None
-    assert one.answer.keys.get("model") == model
+    assert known(one.answer).keys.get("model") == model
     assert one.baud == LIDAR_TWINS[kind, model].baud
-    given_keys = {"kind": kind, "port": "/dev/x", **one.answer.keys}
+    given_keys = {"kind": kind, "port": "/dev/x", **known(one.answer).keys}
     assert LidarConfig.model_validate(given_keys).model == model  # robot.toml takes it
 
 
 def test_a_motor_controller_is_named_with_its_battery(found: dict[str, PortFinding]) -> None:
-    one = found["mcu"]
-    assert (one.code, one.part, one.kind) == ("port_found", "drive", "pons_mcu")
-    assert one.answer is not None
-    assert "battery" in one.answer.words
-    assert "ticks_per_turn" in one.answer.missing
+    assert "battery" in known(found["pons_mcu"].answer).words
 
 
-@pytest.mark.parametrize("kind", BASES_OF_OTHERS)
+@pytest.mark.parametrize("kind", sorted(BASES))
 def test_each_base_is_named(kind: str, found: dict[str, PortFinding]) -> None:
     one = found[kind]
     assert (one.code, one.part, one.kind) == ("port_found", "drive", kind), one
-    assert one.answer is not None
-    assert set(one.answer.missing) == set(DRIVE_KINDS[kind].needed) - {"port"}
+    assert set(known(one.answer).missing) == set(DRIVE_KINDS[kind].needed) - {"port"}
 
 
 def test_a_lidar_that_still_turns_is_named_though_it_does_not_answer(
@@ -100,8 +85,7 @@ def test_a_lidar_that_still_turns_is_named_though_it_does_not_answer(
 ) -> None:
     one = found[TURNING]
     assert (one.code, one.kind) == ("port_found", "rplidar"), one
-    assert one.answer is not None
-    assert "model" in one.answer.missing
+    assert "model" in known(one.answer).missing
 
 
 def test_what_nobody_knows_is_asked_nothing_and_silence_is_told(

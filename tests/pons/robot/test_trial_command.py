@@ -20,9 +20,9 @@ from pons.robot.trial_command import refusal_lines
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_run import set_trial
 from pons.robot.trial_words import PROMPTS, REFUSALS
-from sim.twin.line import TwinLine
 from tests.conftest import ROOT
-from tests.pons.robot.stand import START_S, TICK_S, Stand
+from tests.known import known
+from tests.pons.robot.stand import Stand, alive
 from wire import load_robot
 from wire.trial_record import TrialRecord
 
@@ -148,35 +148,20 @@ def test_a_person_tries_a_base_and_the_bridge_may_then_drive_it(
     link = tmp_path / "base"
     path = robot_at(tmp_path, link)
     assert load_robot(path).valid_trial is None
-    line = TwinLine(link)
     stand = Stand(load_robot(path))
-    stand.wheels.end = line
-    ending = threading.Event()
+    turns, ask_s = ["hand_left", "hand_right"], time.monotonic() + 4.0
     with typed(monkeypatch, "UP\n") as terminal:
 
-        def live() -> None:
-            began_s, turns = time.monotonic(), iter(("hand_left", "hand_right"))
-            asked_s = began_s + 4.0
-            while not ending.wait(TICK_S / 4):
-                while began_s + stand.time_s - START_S < time.monotonic():
-                    stand.wait()
-                if time.monotonic() >= asked_s and stand.has_answered():
-                    code = next(turns, None)
-                    if code is not None:
-                        stand.ask(code)
-                        asked_s = time.monotonic() + 4.0
-                        threading.Timer(3.0, os.write, (terminal, b"\n")).start()
+        def turn_when_asked() -> None:
+            nonlocal ask_s
+            if turns and time.monotonic() >= ask_s and stand.has_answered():
+                stand.ask(turns.pop(0))
+                ask_s = time.monotonic() + 4.0
+                threading.Timer(3.0, os.write, (terminal, b"\n")).start()
 
-        thread = threading.Thread(target=live)
-        thread.start()
-        try:
+        with alive(stand, link, turn_when_asked):
             assert main(["robot", "try", "--robot", str(path)]) == 0, capsys.readouterr().err
-        finally:
-            ending.set()
-            thread.join()
-            line.close()
-    trial = load_robot(path).valid_trial
-    assert trial is not None
+    trial = known(load_robot(path).valid_trial)
     assert 0.2 <= trial.dead_man_s <= 0.5
     moved = load_robot(path).model_copy(
         update={"drive": load_robot(path).drive.model_copy(update={"ticks_per_turn": 99})}

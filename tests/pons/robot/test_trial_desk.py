@@ -17,9 +17,9 @@ from pons.robot.trial_desk import TrialDesk
 from pons.robot.trial_parties import TrialRefusal
 from pons.robot.trial_run import plan_steps
 from pons.robot.trial_words import STEPS
-from sim.twin.line import TwinLine
 from tests.conftest import ROOT
-from tests.pons.robot.stand import START_S, TICK_S, Stand
+from tests.known import known
+from tests.pons.robot.stand import Stand, alive
 from wire import CameraConfig, Proof, TrialOrder, TrialState, load_robot, sign
 from wire.imu_config import ImuConfig
 from wire.keys import TRIAL_STATE
@@ -115,6 +115,10 @@ def desk_at(folder: Path, clock: Clock | None = None) -> Iterator[TrialDesk]:
 def begin(desk: TrialDesk, request: str, key: bytes = KEY, nonce: str | None = None) -> TrialState:
     proof = sign(key, "trial", "r1", nonce or desk.nonce, request)
     desk.take(TrialOrder(id=request, source="t", act="begin", proof=proof))
+    return rested(desk)
+
+
+def rested(desk: TrialDesk) -> TrialState:
     for _ in range(500):
         if not desk.is_busy:
             break
@@ -149,11 +153,7 @@ def test_what_a_page_shows_of_a_trial_does_not_let_another_watch_it(tmp_path: Pa
 def test_a_port_that_is_not_there_is_named_with_its_cure(tmp_path: Path) -> None:
     with desk_at(tmp_path) as desk:
         state = begin(desk, "a")
-        assert (state.phase, state.code, state.by) == (
-            "refused",
-            "trial_port",
-            mark_of("a"),
-        )
+        assert (state.phase, state.code, state.by) == ("refused", "trial_port", mark_of("a"))
         assert state.detail.startswith("port_missing")
         assert state.cure is not None
         assert TRIAL_STATE.max_bytes > len(state.model_dump_json())
@@ -183,11 +183,7 @@ def test_a_page_is_shown_cameras_beside_the_ports(
     monkeypatch.setattr("pons.robot.trial_desk.list_cameras", lambda: entries)
     with desk_at(tmp_path) as desk:
         desk.take(TrialOrder(id="a", source="t", act="find"))
-        for _ in range(500):
-            if not desk.is_busy:
-                break
-            threading.Event().wait(0.01)
-        state = desk.state()
+        state = rested(desk)
     assert state.ports is not None
     assert [one.code for one in state.ports] == ["camera_found", "camera_forbidden"]
     assert (state.ports[0].adapter, state.ports[0].cure) == ("Webcam?[2J", None)
@@ -211,33 +207,14 @@ def test_a_cable_pulled_in_the_middle_of_a_pages_trial_is_told_and_nothing_is_wr
         path = tmp_path / "robot.toml"
         robot = load_robot(path)
         before = path.read_text("utf-8")
-        line, stand, ending = (
-            TwinLine(Path(robot.drive.port or "")),
-            Stand(robot),
-            threading.Event(),
-        )
-        stand.wheels.end = line
-
-        def live() -> None:
-            began_s = time.monotonic()
-            while not ending.wait(TICK_S / 4):
-                while began_s + stand.time_s - START_S < time.monotonic():
-                    stand.wait()
-
-        thread = threading.Thread(target=live)
-        thread.start()
-        try:
+        stand = Stand(robot)
+        with alive(stand, Path(known(robot.drive.port))):
             proof = sign(KEY, "trial", "r1", desk.nonce, "a")
             desk.take(TrialOrder(id="a", source="t", act="begin", proof=proof))
             until(desk, lambda state: state.ask == 1, answered=0)
-        finally:
-            ending.set()
-            thread.join()
-            line.close()
         state = until(desk, lambda state: state.phase == "refused", answered=0)
         assert (state.code, state.detail[:5]) == ("trial_port", "port_")
-        assert state.cure is not None
-        assert "plug it in" in state.cure.en
+        assert "plug it in" in known(state.cure).en
         assert path.read_text("utf-8") == before
         assert stand.wheels.fastest_radps == 0.0
 

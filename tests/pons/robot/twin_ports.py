@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from random import Random
-from typing import Any, Protocol, cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -16,11 +16,10 @@ from bridge.drive.serial_drive import SERIAL_PROTOCOLS
 from devices.port_listing import SerialPortEntry
 from sim.twin.lidar import LidarTwin
 from sim.twin.line import TwinLine
-from sim.twin.pons_mcu import PonsMcuFirmware
 from sim.twin.twin import FIRMWARES
 from tests.wire.examples import EXAMPLES
 from wire import DriveState, RobotDescription
-from wire.drive_config import DRIVE_KINDS, DriveConfig
+from wire.drive_config import DRIVE_KINDS
 from wire.lidar_config import LidarConfig
 
 PERIOD_S = 0.01
@@ -33,17 +32,6 @@ BASES = {
     for kind in FIRMWARES
 }
 """A robot of each kind that has a twin."""
-DRIVE = DriveConfig(kind="pons_mcu", port="/dev/x", ticks_per_turn=400)
-
-
-class PlayedDevice(Protocol):
-    """Be one device at the far end of its line."""
-
-    def turn(self, now_s: float) -> None:
-        """Hear and say what is due."""
-
-    def close(self) -> None:
-        """Take the line away."""
 
 
 class PlayedLidar:
@@ -60,39 +48,20 @@ class PlayedLidar:
         self.twin.close()
 
 
-class PlayedController:
-    """Play a motor controller and remember every order that reached its motors."""
-
-    def __init__(self, link: Path) -> None:
-        self.line, self.firmware = TwinLine(link), PonsMcuFirmware(DRIVE, 0xF0)
-        self.moved = False
-
-    def turn(self, now_s: float) -> None:
-        speaks_alike = self.line.baud() == 115_200
-        heard = self.line.read()
-        self.firmware.hear(heard if speaks_alike else b"", now_s)
-        self.moved |= self.firmware.motors(now_s) != (0.0, 0.0, False)
-        said = self.firmware.say(BODY, now_s)
-        self.line.write(said if speaks_alike else b"\xf8" * len(said))
-
-    def close(self) -> None:
-        self.line.close()
-
-
 class PlayedBase:
-    """Play a base of one kind and remember whether its wheels were ever told to turn."""
+    """Play a base of one kind and remember whether its motors were ever told anything."""
 
     def __init__(self, link: Path, kind: str) -> None:
         self.line, self.firmware = TwinLine(link), FIRMWARES[kind](BASES[kind])
         self._baud = SERIAL_PROTOCOLS[kind](BASES[kind], "b1").baud
+        self._standing = self.firmware.motors(0.0)
         self.moved = False
 
     def turn(self, now_s: float) -> None:
         speaks_alike = self.line.baud() == self._baud
         heard = self.line.read()
         self.firmware.hear(heard if speaks_alike else b"", now_s)
-        left_radps, right_radps, _ = self.firmware.motors(now_s)
-        self.moved |= (left_radps, right_radps) != (0.0, 0.0)
+        self.moved |= self.firmware.motors(now_s) != self._standing
         said = self.firmware.say(BODY, now_s)
         self.line.write(said if speaks_alike else b"\xf8" * len(said))
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from sim.camera import PicturePair, SimCamera
+from tests.known import known
 from tests.sim.camera.gallery import CAMERA, MIDDLE, hall
 from wire import SimFault, SimScene
 
@@ -34,22 +35,15 @@ class Taking:
         return taken
 
 
-def shot(found: PicturePair | None) -> PicturePair:
-    assert found is not None
-    return found
-
-
 def test_the_same_seed_takes_the_same_pictures() -> None:
     assert Taking(5).shots(3) == Taking(5).shots(3)
-    assert shot(Taking(5).shots(1)[0]).color != shot(Taking(6).shots(1)[0]).color
+    assert known(Taking(5).shots(1)[0]).color != known(Taking(6).shots(1)[0]).color
 
 
 def test_pictures_unpack_to_what_was_drawn() -> None:
-    found = shot(Taking().shots(1)[0])
-    color = cv2.imdecode(np.frombuffer(found.color, np.uint8), cv2.IMREAD_COLOR)
-    depth = cv2.imdecode(np.frombuffer(found.depth, np.uint8), cv2.IMREAD_UNCHANGED)
-    assert color is not None
-    assert depth is not None
+    found = known(Taking().shots(1)[0])
+    color = known(cv2.imdecode(np.frombuffer(found.color, np.uint8), cv2.IMREAD_COLOR))
+    depth = known(cv2.imdecode(np.frombuffer(found.depth, np.uint8), cv2.IMREAD_UNCHANGED))
     assert color.shape == (CAMERA.height_px, CAMERA.width_px, 3)
     assert depth.shape == (CAMERA.height_px, CAMERA.width_px)
     assert depth.dtype == np.uint16
@@ -61,22 +55,21 @@ def test_pictures_unpack_to_what_was_drawn() -> None:
 def test_off_is_silent_and_comes_back() -> None:
     taking = Taking()
     assert taking.shots(3, OFF) == [None] * 3
-    assert shot(taking.shots(1)[0]).stamp_s == taking.now_s
+    assert known(taking.shots(1)[0]).stamp_s == taking.now_s
 
 
 def test_stuck_repeats_one_picture_freshly_stamped() -> None:
     taking = Taking()
-    stuck = [shot(one) for one in taking.shots(3, STUCK)]
+    stuck = [known(one) for one in taking.shots(3, STUCK)]
     assert len({(one.color, one.depth) for one in stuck}) == 1
     assert [one.stamp_s for one in stuck] == pytest.approx([100.1, 100.2, 100.3])
-    assert shot(taking.shots(1)[0]).color != stuck[0].color
+    assert known(taking.shots(1)[0]).color != stuck[0].color
 
 
 def test_blind_is_black_without_depth() -> None:
-    found = shot(Taking().shots(1, BLIND)[0])
+    found = known(Taking().shots(1, BLIND)[0])
     for data in (found.color, found.depth):
-        picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
-        assert picture is not None
+        picture = known(cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED))
         assert picture.max() == 0
 
 
@@ -84,5 +77,5 @@ def test_delayed_pictures_come_a_second_late_as_they_were_stamped() -> None:
     taking = Taking()
     late = taking.shots(14, DELAYED)
     assert late[:10] == [None] * 10
-    assert [shot(one).stamp_s for one in late[10:]] == pytest.approx([100.1, 100.2, 100.3, 100.4])
-    assert shot(taking.shots(1)[0]).stamp_s == taking.now_s, "mended: nothing old comes after"
+    assert [known(one).stamp_s for one in late[10:]] == pytest.approx([100.1, 100.2, 100.3, 100.4])
+    assert known(taking.shots(1)[0]).stamp_s == taking.now_s, "mended: nothing old comes after"

@@ -109,15 +109,6 @@ def test_it_takes_pictures_while_there_is_something_to_draw(
     assert camera.wait(LIMIT_S) == 0
 
 
-@pytest.fixture
-def signals_kept() -> Iterator[None]:
-    """Put this process's own signal handlers back."""
-    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGINT)}
-    yield
-    for number, handler in before.items():
-        signal.signal(number, handler)
-
-
 @pytest.mark.usefixtures("signals_kept")
 def test_a_robot_without_a_simulated_camera_is_refused_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

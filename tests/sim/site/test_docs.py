@@ -9,6 +9,7 @@ import pytest
 
 from sim.site import parse_home
 from sim.site.classes import CLASSES, COLORS
+from tests.known import known
 from wire import CameraConfig, SimFault
 
 FRAME = """version: 1
@@ -27,8 +28,7 @@ def page(repository: Path) -> str:
 
 
 def test_its_home_is_one(page: str) -> None:
-    block = re.search(r"```yaml\n(.*?)```", page, re.DOTALL)
-    assert block is not None
+    block = known(re.search(r"```yaml\n(.*?)```", page, re.DOTALL))
     made = parse_home(FRAME + block.group(1), "docs/sites.md")
     assert set(made.objects) == {"red_cup", "ball", "front_door"}
 

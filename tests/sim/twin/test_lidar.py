@@ -52,9 +52,8 @@ ALIGNED = [
 """Models of which each beam has a direction of the scan for itself."""
 
 
-@pytest.mark.parametrize("upside_down", [False, True])
 @pytest.mark.parametrize("key", ALIGNED, ids=lambda key: "_".join(filter(None, key)))
-@given(data=st.data())
+@given(upside_down=st.booleans(), data=st.data())
 def test_any_ranges_come_back_within_the_formats_quantisation(
     key: tuple[str, str | None], upside_down: bool, data: st.DataObject
 ) -> None:

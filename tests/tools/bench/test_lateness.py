@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import os
 import time
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import psutil
 import pytest
 
 from tools.bench.lateness import cyclictest, cyclictest_late_us
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 HISTOGRAM = """# Histogram
 000000 000000

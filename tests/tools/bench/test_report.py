@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 from tools.bench.report import ReportRow, number, row_of, table
@@ -36,8 +34,3 @@ def test_an_invalid_run_keeps_its_figures_and_its_mark() -> None:
     text = table([row_of("speed", "x", "", [1.0], "simulator 0.90 x", valid=False)])
     assert "1.00" in text
     assert "INVALID: simulator 0.90 x" in text
-
-
-def test_a_row_goes_into_json() -> None:
-    record = row_of("speed", "x", ">= 10", [11.0]).record()
-    assert json.loads(json.dumps(record))["figures"]["p50"] == 11.0

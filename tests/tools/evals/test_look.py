@@ -23,12 +23,6 @@ COUNT = sum(map(len, CASES.values()))
 CAT = read_look(read_line(f"tuned\t{SIGN}\tsign_cat\tIs there a cat?\tunseen & never cat", 3))
 
 
-@pytest.fixture
-def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("PONS_HOME", str(tmp_path))
-    return tmp_path
-
-
 def case_of(body: Body) -> LookCase:
     """Return the question that a request asks, by its words and its very picture."""
     jpeg = base64.b64decode(picture_url(body).partition(",")[2])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -61,11 +60,9 @@ def test_a_line_that_cannot_be_read_is_named(row: str) -> None:
         asyncio.run(hear_talk(read_line(row, 3), OfflineBrain(), SITE))
 
 
-def test_what_a_model_may_cost_a_goal_is_counted_sentence_by_sentence(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@pytest.mark.usefixtures("home")
+def test_what_a_model_may_cost_a_goal_is_counted_sentence_by_sentence() -> None:
     """A goal of one's own may take 30 calls; a suite has more sentences."""
-    monkeypatch.setenv("PONS_HOME", str(tmp_path))
     no = '{"kind":"refuse","code":"not_understood","en":"No.","zh":"不。"}'
     with served_model(lambda _: no) as served:
         assert main(["talk", "--model", f"m@{served.url}"]) == 1

@@ -43,12 +43,6 @@ def world() -> EvalWorld:
     return site_world(HOME_SITE, room="study")
 
 
-@pytest.fixture
-def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("PONS_HOME", str(tmp_path))
-    return tmp_path
-
-
 def verdict(world: EvalWorld, told: str, wanted: str, *steps: Any, order: str = ORDER) -> Any:
     case = case_of(order, read_course(told, world), wanted)
     found: SentenceVerdict = judge(case, StepPlan(steps=steps), world)

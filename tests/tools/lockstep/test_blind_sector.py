@@ -9,6 +9,7 @@ import pytest
 from planner.plan import GoalState
 from sim import Domain
 from sim.hardware import Hardware
+from tests.known import known
 from tools.lockstep import LockstepWorld
 from wire import Mode, Pose2, SimFault
 
@@ -71,8 +72,7 @@ def test_a_robot_that_boots_before_a_silent_wall_turns_by_itself_and_arrives() -
     world.run_until(lambda w: "LIDAR_SECTOR.0" in w.bridge.state.rows, 5.0)
     world.run_until(lambda _: goal.has_ended, 90.0)
     assert goal.state is GoalState.SUCCEEDED
-    plan = goal.record.plan
-    assert plan is not None
+    plan = known(goal.record.plan)
     assert plan.steps[0].recoveries.count("turn_out") == 1
     assert world.contacts == 0
 
@@ -83,8 +83,7 @@ def test_a_hole_turns_along_and_holds_again_after_one_turn() -> None:
     world.sim.place_obstacle(*CRATE_M)
     goal = world.say("go to the kitchen")
     world.run_until(lambda _: goal.state is GoalState.PAUSED, 90.0)
-    plan = goal.record.plan
-    assert plan is not None
+    plan = known(goal.record.plan)
     assert goal.record.reason == "fault(LIDAR_SECTOR)"
     assert plan.steps[0].recoveries == ("turn_out",)
     assert world.truth.x_m > DOCK.x_m - 0.3

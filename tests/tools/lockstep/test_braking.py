@@ -9,6 +9,7 @@ from math import pi
 import pytest
 
 from sim import Hardware
+from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2, Velocity, keys
@@ -87,9 +88,7 @@ def stopped_once(world: LockstepWorld) -> None:
 
 
 @pytest.fixture(scope="module")
-def first_wall(
-    ready: Callable[..., LockstepWorld],
-) -> Callable[[Hardware], tuple[LockstepWorld, float]]:
+def first_wall(ready: Ready) -> Callable[[Hardware], tuple[LockstepWorld, float]]:
     """Return a maker of worlds that have stopped at the wall once, and what was left there [m]."""
     made: dict[Hardware, tuple[LockstepWorld, float]] = {}
 
@@ -117,7 +116,7 @@ def test_the_first_wall_is_not_touched_and_later_ones_keep_the_margin(
     assert world.status.braking.learnt
 
 
-def test_a_late_and_a_weak_robot_are_told_apart(ready: Callable[..., LockstepWorld]) -> None:
+def test_a_late_and_a_weak_robot_are_told_apart(ready: Ready) -> None:
     late = ready(seed=1, hardware=LATE, start=FROM)
     stopped_once(late)
     assert late.status.braking.lag_s > 0.1
@@ -138,7 +137,7 @@ def test_brakes_under_half_are_capped_so_that_stopping_is_no_fault(
     assert world.status.limits.by in {"weak_brakes", "obstacle"}
 
 
-def test_a_robot_as_robot_toml_says_learns_nothing(ready: Callable[..., LockstepWorld]) -> None:
+def test_a_robot_as_robot_toml_says_learns_nothing(ready: Ready) -> None:
     world = ready(seed=1, start=FROM)
     stopped_once(world)
     assert not world.status.braking.learnt

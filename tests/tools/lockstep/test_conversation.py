@@ -8,6 +8,7 @@ import pytest
 
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import GoTo, Patrol, PlanRole, Say, StepPlan
+from tests.known import known
 from tools.lockstep import LockstepWorld
 from wire import Pose2
 
@@ -36,10 +37,8 @@ def test_a_correction_under_way_ends_the_drive_and_goes_where_it_was_meant(
     second = world.say(correction)
     world.run_until(lambda _: second.has_ended, limit_s=60.0)
     assert (first.state, second.state) == ("cancelled", "succeeded")
-    outcome = second.record.outcome
-    assert outcome is not None
-    assert outcome.reached is not None
-    assert outcome.reached.place == "sofa"
+    outcome = known(second.record.outcome)
+    assert known(outcome.reached).place == "sofa"
 
 
 def test_what_takes_a_drive_back_by_a_stop_word_drives_on_its_own_signature() -> None:
@@ -64,8 +63,7 @@ def test_one_more_waits_for_what_runs_and_again_drives_it_once_more() -> None:
     assert (first.state, more.state) == ("succeeded", "succeeded")
     again = world.say("do that again")
     world.run_until(lambda _: again.has_ended, limit_s=60.0)
-    plan = again.record.plan
-    assert plan is not None
+    plan = known(again.record.plan)
     assert [(step.kind, step.place) for step in plan.steps] == [("go_to", "kitchen")]
 
 
@@ -82,8 +80,7 @@ def test_the_robot_is_called_back_to_where_its_errand_was_given(order: str, back
     goal = world.say(back)
     world.run_until(lambda _: goal.has_ended, limit_s=60.0)
     assert (errand.state, goal.state) == ("succeeded", "succeeded")
-    here = world.status.base_in_map
-    assert here is not None
+    here = known(world.status.base_in_map)
     assert hypot(here.x_m - START.x_m, here.y_m - START.y_m) < 0.3
 
 

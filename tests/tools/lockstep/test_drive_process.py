@@ -10,6 +10,7 @@ from planner.plan import GoalState
 from sim.twin.avr_board import AvrBoard, AvrFirmware
 from tests.conftest import ROOT
 from tests.firmware.conftest import board_build
+from tests.known import known
 from tools.lockstep import LockstepWorld
 from tools.lockstep.serial_line import LineFault
 from wire import load_robot
@@ -49,8 +50,7 @@ def test_a_line_that_fails_in_mid_drive_stops_the_robot_or_is_survived(fault: Li
     world = LockstepWorld(robot=described())
     world.say("go to the living room")
     world.run_until(lambda w: not w.standing, 30.0)
-    assert world.base is not None
-    world.base.line.break_down(fault)
+    known(world.base).line.break_down(fault)
     world.run(3.0)
     if fault in (LineFault.SILENT, LineFault.HUNG_UP, LineFault.WRONG_BAUD):
         assert world.standing, world.describe()

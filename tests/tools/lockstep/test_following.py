@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import hypot, pi
 from pathlib import Path
 
@@ -10,6 +9,8 @@ import pytest
 
 from planner.brain import ScriptedBrain
 from planner.plan import Follow, GoalState, StepPlan
+from tests.known import known
+from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld
 from tools.lockstep.homes import stock_home
 from wire import Pose2
@@ -28,7 +29,7 @@ def lived_in(tmp_path_factory: pytest.TempPathFactory, repository: Path) -> Path
 
 
 @pytest.fixture
-def world(ready: Callable[..., LockstepWorld], lived_in: Path) -> LockstepWorld:
+def world(ready: Ready, lived_in: Path) -> LockstepWorld:
     """Return a world that sees, and whose brain says to follow."""
     world = ready(site=lived_in, seed=3, start=START)
     world.put("anna", Pose2(1.5, 2.6, 0.0))
@@ -67,8 +68,7 @@ def test_a_camera_that_falls_silent_ends_it_where_it_stands(
         least_m = min(least_m, away_m(world, y_m))
         assert world.now_s - at_s < 15.0
     assert least_m > before_m - (BRAKING_M if driving else 0.0) - 0.1
-    plan = goal.record.plan
-    assert plan is not None
+    plan = known(goal.record.plan)
     assert (goal.state, plan.steps[0].reason) == (GoalState.FAILED, "camera_silent")
     world.run_until(lambda w: w.standing, 2.0)
 

@@ -11,6 +11,7 @@ from planner.plan import GoalState
 from pons import site
 from pons.settings import LaunchSettings, site_of
 from pons_assets import ROBOT_FILE
+from tests.known import known
 from tools.lockstep import LockstepWorld
 
 SHARED = Path(__file__).resolve().parents[4] / "shared" / "data" / "maps"
@@ -29,8 +30,7 @@ def drives_to_the_hall(folder: Path, text: str) -> None:
     goal = world.say(text)
     world.run_until(lambda _: goal.has_ended, LIMIT_S)
     assert goal.state is GoalState.SUCCEEDED
-    hall = world.scene.site.place("great_hall")
-    assert hall is not None
+    hall = known(world.scene.site.place("great_hall"))
     assert hall.contains(world.truth.x_m, world.truth.y_m)
     assert world.contacts == 0
 

@@ -5,15 +5,14 @@ from __future__ import annotations
 from math import hypot
 
 from localization.localizer import LocalizerState
+from tests.known import known
 from tools.lockstep import LockstepWorld
 from wire import Pose2, RobotDescription, compose
 from wire.robot import LocalizationConfig
 
 
 def error_m(world: LockstepWorld) -> float:
-    assert world.localizer is not None
-    said = world.localizer.localizer.said
-    assert said is not None
+    said = known(known(world.localizer).localizer.said)
     base = compose(said.odom_in_map, world.status.base_in_odom)
     return hypot(base.x_m - world.truth.x_m, base.y_m - world.truth.y_m)
 
@@ -21,8 +20,7 @@ def error_m(world: LockstepWorld) -> float:
 def test_it_finds_itself_at_start_and_again_when_carried() -> None:
     robot = RobotDescription(localization=LocalizationConfig(kind="scans"))
     world = LockstepWorld(site="two_room", seed=2, robot=robot)
-    assert world.localizer is not None
-    localizer = world.localizer.localizer
+    localizer = known(world.localizer).localizer
     assert error_m(world) < 0.05
     world.teleport(Pose2(world.truth.x_m + 0.9, world.truth.y_m, world.truth.yaw_rad + 1.0))
     world.run_until(lambda _: localizer.state is LocalizerState.LOST, 0.6)

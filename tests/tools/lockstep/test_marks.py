@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import pytest
 
 from bridge.core.geometry.fence import contains
 from lockstep.planner_process import Request
 from planner.plan import Code, GoalState
+from tests.known import known
+from tests.tools.lockstep.conftest import Ready
 from tests.tools.lockstep.test_points import point
 from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Answer, Pose2, SlowMark
 
 IN_KITCHEN = Pose2(1.5, 1.2, 1.5)
 Polygon = tuple[tuple[float, float], ...]
-World = Callable[..., LockstepWorld]
 
 
 def box(x0: float, y0: float, x1: float, y1: float) -> Polygon:
@@ -36,7 +37,7 @@ def each_tick(world: LockstepWorld, goal: GoalHandle, limit_s: float) -> Iterato
         yield world.truth
 
 
-def driving(ready: World, to_y_m: float, x_m: float = 1.5) -> tuple[LockstepWorld, GoalHandle]:
+def driving(ready: Ready, to_y_m: float, x_m: float = 1.5) -> tuple[LockstepWorld, GoalHandle]:
     """Return a world whose robot drives north at speed, from the kitchen to the living room."""
     world = ready(seed=2, start=IN_KITCHEN)
     goal = world.go(point(world, x_m, to_y_m))
@@ -44,30 +45,28 @@ def driving(ready: World, to_y_m: float, x_m: float = 1.5) -> tuple[LockstepWorl
     return world, goal
 
 
-def test_a_keep_out_drawn_across_the_way_is_not_entered(ready: World) -> None:
+def test_a_keep_out_drawn_across_the_way_is_not_entered(ready: Ready) -> None:
     world, goal = driving(ready, 4.6)
     across = box(0.2, 3.3, 2.8, 3.7)
     assert verdict(world, world.draw([across])) == "ok"
     assert world.status.marks_hash is not None
     assert max(at.y_m for at in each_tick(world, goal, 60.0)) < 3.3
-    assert goal.record.outcome is not None
-    assert goal.record.outcome.code is Code.NO_ROUTE
+    assert known(goal.record.outcome).code is Code.NO_ROUTE
 
 
-def test_routes_lead_round_a_keep_out_and_a_point_inside_is_refused(ready: World) -> None:
+def test_routes_lead_round_a_keep_out_and_a_point_inside_is_refused(ready: Ready) -> None:
     world = ready(seed=2, start=IN_KITCHEN)
     island = box(0.9, 3.6, 1.7, 4.2)
     assert verdict(world, world.draw([island])) == "ok"
     inside = world.go(point(world, 1.3, 3.9))
     world.run_until(lambda _: inside.has_ended, 20.0)
-    assert inside.record.outcome is not None
-    assert inside.record.outcome.code is Code.POINT_IN_KEEP_OUT
+    assert known(inside.record.outcome).code is Code.POINT_IN_KEEP_OUT
     goal = world.go(point(world, 1.2, 4.7))
     assert not any(contains(island, at.x_m, at.y_m) for at in each_tick(world, goal, 90.0))
     assert goal.state is GoalState.SUCCEEDED
 
 
-def test_a_deleted_keep_out_gives_back_what_the_fence_allows(ready: World) -> None:
+def test_a_deleted_keep_out_gives_back_what_the_fence_allows(ready: Ready) -> None:
     world = ready(seed=2, start=IN_KITCHEN)
     there = point(world, 1.3, 3.9)
     assert verdict(world, world.draw([box(0.9, 3.6, 1.7, 4.2)])) == "ok"
@@ -77,7 +76,7 @@ def test_a_deleted_keep_out_gives_back_what_the_fence_allows(ready: World) -> No
     assert goal.state is GoalState.SUCCEEDED
 
 
-def test_within_a_slow_area_the_robot_is_never_faster(ready: World) -> None:
+def test_within_a_slow_area_the_robot_is_never_faster(ready: Ready) -> None:
     world, goal = driving(ready, 4.6)
     slow = SlowMark(polygon=box(0.2, 3.2, 2.8, 5.8), max_speed_mps=0.15)
     assert verdict(world, world.draw(slow=[slow])) == "ok"
@@ -100,14 +99,14 @@ def test_within_a_slow_area_the_robot_is_never_faster(ready: World) -> None:
     ],
 )
 def test_a_bad_outline_changes_nothing_and_says_why(
-    ready: World, outline: Polygon, code: str
+    ready: Ready, outline: Polygon, code: str
 ) -> None:
     world = ready(seed=2, start=IN_KITCHEN)
     assert verdict(world, world.draw([outline])) == code
     assert world.status.marks_hash is None
 
 
-def test_one_that_the_robot_could_not_stop_before_is_refused(ready: World) -> None:
+def test_one_that_the_robot_could_not_stop_before_is_refused(ready: Ready) -> None:
     world, _ = driving(ready, 4.6)
     ahead = box(0.2, world.truth.y_m + 0.12, 2.8, world.truth.y_m + 1.0)
     assert verdict(world, world.draw([ahead])) in ("mark_too_near", "mark_holds_robot")

@@ -15,6 +15,7 @@ import pytest
 from lockstep.world import STAND_IN_ROBOT
 from planner.plan import Code, GoalState
 from ros2.pons_ros2.pons_ros2.goals import Nav2Dialogue, read_order
+from tests.known import known
 from tests.ros2.small_nav2 import SmallNav2
 from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Mode, Nav2State, Pose2, Waypoints, decode, distance, encode, keys
@@ -92,10 +93,8 @@ def ended(goal: GoalHandle) -> bool:
 
 
 def reason_of(goal: GoalHandle) -> str | None:
-    plan = goal.record.plan
-    assert plan is not None
-    assert plan.steps is not None
-    return plan.steps[-1].reason
+    plan = known(goal.record.plan)
+    return known(plan.steps)[-1].reason
 
 
 def is_state(goal: GoalHandle, state: GoalState) -> bool:
@@ -127,8 +126,7 @@ def test_nav2_brings_the_robot_there_through_the_bridge_and_no_waypoint_is_sent(
     assert len(graph.nav2.goals) == 1
     limits = world.scene.robot.limits
     assert max(status.sent.v_mps for status in world.statuses) <= limits.max_speed_mps + 1e-6
-    assert world.status.owner is not None
-    assert world.status.owner.kind == "external"
+    assert known(world.status.owner).kind == "external"
 
 
 def test_a_stop_cancels_at_nav2_and_no_twist_of_it_moves_the_robot_until_resumed() -> None:
@@ -173,8 +171,7 @@ def test_what_nav2_does_not_do_is_told_by_its_code(nav2: SmallNav2, reason: str)
     assert goal.state is GoalState.FAILED
     record = goal.record
     assert reason_of(goal) == reason
-    assert record.outcome is not None
-    assert record.outcome.code is Code.NOT_REACHED
+    assert known(record.outcome).code is Code.NOT_REACHED
     assert world.contacts == 0
 
 

@@ -9,6 +9,7 @@ from random import Random
 import pytest
 
 from planner.robot_service import LinkedRobot
+from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import TICK_S, LockstepWorld
 from tools.lockstep.page_hand import PageHand
 from wire import Mode, Pose2
@@ -68,7 +69,7 @@ class Pages:
 
 
 @pytest.fixture
-def pages(ready: Callable[..., LockstepWorld]) -> Callable[..., Pages]:
+def pages(ready: Ready) -> Callable[..., Pages]:
     return lambda *ways, seed=1: Pages.of(ready(seed=seed, start=START), *(ways or (2,)))
 
 

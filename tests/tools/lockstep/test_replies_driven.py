@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import pytest
 
-from planner.plan import Code, Language
+from planner.plan import Code, Language, Outcome
 from tests.planner.language.laws.replies import count_sentences, find_foreign, find_inner
 from tools.lockstep import LockstepWorld
-
-if TYPE_CHECKING:
-    from planner.plan import Outcome
 
 SHORT = 200
 """Characters that may be more than two sentences."""

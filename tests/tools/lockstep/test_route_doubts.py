@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from planner.plan import GoalState
+from tests.known import known
+from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld
 
 LIMIT_S = 90.0
 
 
-def set_off(ready: Callable[..., LockstepWorld], order: str) -> tuple[LockstepWorld, GoalHandle]:
+def set_off(ready: Ready, order: str) -> tuple[LockstepWorld, GoalHandle]:
     """Return a drive in whose way a crate was put, some 3 m ahead."""
     world = ready(site="home", seed=3)
     goal = world.say(order)
     loop = world.planner.missions.loop
     world.run(4.0)  # into the hallway
-    way = loop._engine.way_ahead(3.0)
-    assert way is not None
+    way = known(loop._engine.way_ahead(3.0))
     world.place_obstacle(*way.points[-1])
     return world, goal
 
@@ -35,9 +34,7 @@ def watch(world: LockstepWorld, goal: GoalHandle) -> tuple[list[str], bool]:
     return told, world.status.blocked
 
 
-def test_with_another_way_the_robot_takes_it_and_is_never_held(
-    ready: Callable[..., LockstepWorld],
-) -> None:
+def test_with_another_way_the_robot_takes_it_and_is_never_held(ready: Ready) -> None:
     world, goal = set_off(ready, "go to the study")
     told, held = watch(world, goal)
     assert goal.state is GoalState.SUCCEEDED
@@ -45,9 +42,7 @@ def test_with_another_way_the_robot_takes_it_and_is_never_held(
     assert not held
 
 
-def test_without_another_way_it_goes_on_and_says_so_until_the_bridge_holds_it(
-    ready: Callable[..., LockstepWorld],
-) -> None:
+def test_without_another_way_it_goes_on_and_says_so_until_the_bridge_holds_it(ready: Ready) -> None:
     world, goal = set_off(ready, "go to the kitchen")
     told, held = watch(world, goal)
     assert held

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import atan2, hypot, pi
 from pathlib import Path
 
@@ -24,6 +23,8 @@ from planner.plan import (
     StepPlan,
     StepRecord,
 )
+from tests.known import known
+from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld
 from tools.lockstep.homes import stock_home
 from wire import Pose2, wrap
@@ -36,7 +37,6 @@ OBJECTS: dict[str, object] = {
 }
 PEOPLE: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
 TO_THE_DOOR, BY_THE_COUNTER = Pose2(1.5, 4.0, -pi / 2), Pose2(1.5, 1.9, -0.9)
-World = Callable[..., LockstepWorld]
 
 pytestmark = pytest.mark.timeout(180)
 """A search is a minute of simulated time: 6 s of a free core, ten times that on a busy one."""
@@ -51,7 +51,7 @@ def home(tmp_path_factory: pytest.TempPathFactory, repository: Path) -> Path:
 
 
 @pytest.fixture
-def world_with(ready: Callable[..., LockstepWorld], home: Path) -> World:
+def world_with(ready: Ready, home: Path) -> Ready:
     """Return a maker of worlds that see, and whose brain says this plan."""
 
     def made(*steps: Step, start: Pose2 = BY_THE_COUNTER, seed: int = 3) -> LockstepWorld:
@@ -65,16 +65,14 @@ def world_with(ready: Callable[..., LockstepWorld], home: Path) -> World:
 
 def done(world: LockstepWorld, goal: GoalHandle, limit_s: float = 90.0) -> StepRecord:
     world.run_until(lambda _: goal.has_ended, limit_s)
-    plan = goal.record.plan
-    assert plan is not None
+    plan = known(goal.record.plan)
     assert world.contacts == 0
     assert world.standing or goal.state is GoalState.SUCCEEDED
     return plan.steps[0]
 
 
 def told(goal: GoalHandle) -> tuple[Code, str, str]:
-    outcome = goal.record.outcome
-    assert outcome is not None
+    outcome = known(goal.record.outcome)
     return outcome.code, outcome.message.en, outcome.message.zh
 
 
@@ -82,13 +80,12 @@ def moved_m(world: LockstepWorld, since: Pose2) -> float:
     return hypot(world.truth.x_m - since.x_m, world.truth.y_m - since.y_m)
 
 
-def test_what_is_in_another_room_is_found_and_not_what_stands_beside_it(world_with: World) -> None:
+def test_what_is_in_another_room_is_found_and_not_what_stands_beside_it(world_with: Ready) -> None:
     world = world_with(Find(object="红色的杯子"), start=TO_THE_DOOR)
     goal = world.say("找红色的杯子")
     step = done(world, goal)
     assert goal.state is GoalState.SUCCEEDED
-    found = step.found
-    assert found is not None
+    found = known(step.found)
     assert (found.label, found.color, found.room) == ("cup", "red", "kitchen")
     assert hypot(found.x_m - RED[0], found.y_m - RED[1]) < 0.15
     away_m = hypot(world.truth.x_m - RED[0], world.truth.y_m - RED[1])
@@ -100,7 +97,7 @@ def test_what_is_in_another_room_is_found_and_not_what_stands_beside_it(world_wi
 
 
 def test_what_was_just_seen_is_told_without_a_search_and_gone_things_are_not(
-    world_with: World,
+    world_with: Ready,
 ) -> None:
     world = world_with(Find(object="the red cup", place="kitchen"))
     world.run(2.0)
@@ -119,7 +116,7 @@ def test_what_was_just_seen_is_told_without_a_search_and_gone_things_are_not(
     assert step.rooms == ("kitchen",)
 
 
-def test_what_is_not_there_is_told_with_where_was_looked(world_with: World) -> None:
+def test_what_is_not_there_is_told_with_where_was_looked(world_with: Ready) -> None:
     world = world_with(Find(object="green cup", place="kitchen"))
     goal = world.say("find the green cup in the kitchen")
     step = done(world, goal)
@@ -141,7 +138,7 @@ def test_what_is_not_there_is_told_with_where_was_looked(world_with: World) -> N
     ],
 )
 def test_what_these_eyes_can_not_do_is_refused_before_anything_moves(
-    world_with: World, step: Step, blind: str | None, code: Code, says: str
+    world_with: Ready, step: Step, blind: str | None, code: Code, says: str
 ) -> None:
     world = world_with(step)
     world.open_eyes().blind = blind
@@ -154,7 +151,7 @@ def test_what_these_eyes_can_not_do_is_refused_before_anything_moves(
     assert moved_m(world, began) < 0.01
 
 
-def test_it_drives_up_to_a_thing_and_faces_it(world_with: World) -> None:
+def test_it_drives_up_to_a_thing_and_faces_it(world_with: Ready) -> None:
     world = world_with(GoToObject(object="blue cup", place="kitchen"))
     goal = world.say("go to the blue cup in the kitchen")
     step = done(world, goal)
@@ -169,7 +166,7 @@ def test_it_drives_up_to_a_thing_and_faces_it(world_with: World) -> None:
 
 
 def test_a_thing_that_is_taken_away_on_the_way_is_looked_for_once_and_then_told(
-    world_with: World,
+    world_with: Ready,
 ) -> None:
     world = world_with(GoToObject(object="red cup", place="kitchen"), start=Pose2(0.7, 1.9, -0.5))
     goal = world.say("go to the red cup")
@@ -180,7 +177,7 @@ def test_a_thing_that_is_taken_away_on_the_way_is_looked_for_once_and_then_told(
     assert "no more where I had seen it" in told(goal)[1]
 
 
-def test_things_are_counted_and_questions_answered_in_one_place_or_here(world_with: World) -> None:
+def test_things_are_counted_and_questions_answered_in_one_place_or_here(world_with: Ready) -> None:
     world = world_with(Count(object="cups", place="kitchen"))
     goal = world.say("how many cups are in the kitchen")
     assert done(world, goal).count == 2
@@ -200,7 +197,7 @@ def test_things_are_counted_and_questions_answered_in_one_place_or_here(world_wi
         assert moved_m(world, began) < 0.01
 
 
-def test_eyes_that_fail_midway_end_the_step_standing(world_with: World) -> None:
+def test_eyes_that_fail_midway_end_the_step_standing(world_with: Ready) -> None:
     world = world_with(Find(object="green cup"))
     goal = world.say("find the green cup")
     world.run(6.0)
@@ -213,7 +210,7 @@ def test_eyes_that_fail_midway_end_the_step_standing(world_with: World) -> None:
 
 @pytest.mark.parametrize("way", ["pause", "stop", "crash"])
 def test_an_interrupted_search_goes_on_where_it_was_and_never_by_itself(
-    world_with: World, way: str
+    world_with: Ready, way: str
 ) -> None:
     world = world_with(Find(object="green cup", place="kitchen"))
     goal = world.say("find the green cup in the kitchen")
@@ -250,7 +247,7 @@ def test_an_interrupted_search_goes_on_where_it_was_and_never_by_itself(
     assert (goal.state, step.reason) == (GoalState.FAILED, "not_found")
 
 
-def test_a_person_is_followed_at_a_distance_and_lost_cleanly(world_with: World) -> None:
+def test_a_person_is_followed_at_a_distance_and_lost_cleanly(world_with: Ready) -> None:
     world = world_with(Follow(object="person"), start=Pose2(1.5, 1.2, pi / 2))
     here = [1.5, 2.6]
     world.put("anna", Pose2(here[0], here[1], 0.0))
@@ -275,7 +272,7 @@ def test_a_person_is_followed_at_a_distance_and_lost_cleanly(world_with: World) 
 
 
 def test_a_point_of_the_picture_is_driven_to_on_floor_and_refused_on_a_wall(
-    world_with: World,
+    world_with: Ready,
 ) -> None:
     world = world_with(GoToPoint(x=500, y=820), start=Pose2(0.8, 1.9, 0.3))
     world.run(1.0)
@@ -296,7 +293,7 @@ SOFA = (1.5, 5.6)
 """Its middle. It is on the map; behind it stands the wall."""
 
 
-def test_a_point_on_mapped_furniture_is_driven_up_to_and_faced(world_with: World) -> None:
+def test_a_point_on_mapped_furniture_is_driven_up_to_and_faced(world_with: Ready) -> None:
     world = world_with(GoToPoint(x=500, y=860), start=Pose2(1.5, 3.7, pi / 2))
     world.run(1.0)
     goal = world.say("go there")
@@ -307,7 +304,7 @@ def test_a_point_on_mapped_furniture_is_driven_up_to_and_faced(world_with: World
     assert abs(wrap(atan2(SOFA[1] - at.y_m, SOFA[0] - at.x_m) - at.yaw_rad)) < 0.35
 
 
-def test_a_patrol_sees_what_stands_at_each_stop_and_tells_it_at_the_end(world_with: World) -> None:
+def test_a_patrol_sees_what_stands_at_each_stop_and_tells_it_at_the_end(world_with: Ready) -> None:
     world = world_with(Patrol(places=("kitchen", "living_room"), look=True), start=TO_THE_DOOR)
     goal = world.say("patrol the kitchen and the living room and tell me what you saw")
     step = done(world, goal, limit_s=240.0)

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from math import atan2
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from planner.brain.image_questions import ImageDescription, ImageQuestion, ImageSighting, NotThere
 from planner.brain.scripted import ScriptedBrain
 from planner.plan import Bilingual, BrainTag, Code, Find, GoTo, Look, Say, Step, StepPlan
+from tests.known import known
 from tools.lockstep import LockstepWorld
 from tools.lockstep.homes import stock_home
 from wire import Pose2, wrap
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 ARMCHAIR = Bilingual(en="No: only an armchair at a bare wall.", zh="没有，只有墙边的扶手椅。")
 ANNA: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
@@ -58,8 +56,7 @@ def test_somebody_who_was_seen_is_told_whatever_a_model_denies(
     world, model = seeing(home, KITCHEN, Look(question=question, place="living_room"))
     goal = world.say(question)
     world.run_until(lambda _: goal.has_ended, limit_s=120.0)
-    outcome = goal.record.outcome
-    assert outcome is not None
+    outcome = known(goal.record.outcome)
     assert outcome.code is Code.SEEN
     assert outcome.message.en == (
         "Yes, I see a person in the living room. But at a second look I am less sure: "
@@ -84,8 +81,7 @@ def test_behind_a_blocked_door_nobody_arrives_and_nothing_is_denied(
     for order in ("to the kitchen, then say dinner is ready; else say it here", "look there"):
         goal = world.say(order)
         world.run_until(lambda _, goal=goal: goal.has_ended, limit_s=240.0)  # type: ignore[misc]
-        outcome = goal.record.outcome
-        assert outcome is not None
+        outcome = known(goal.record.outcome)
         told.append(outcome.message)
         world.think_with(ScriptedBrain([look] * 3))
     errand, looked = told
@@ -108,8 +104,7 @@ class Seeking(Denying):
         self.poses: list[Pose2] = []
 
     async def seek(self, asked: ImageQuestion) -> ImageSighting:
-        pose = asked.picture.base_in_map
-        assert pose is not None
+        pose = known(asked.picture.base_in_map)
         assert asked.words == "vase"
         self.poses.append(pose)
         left_rad = wrap(atan2(VASE[1] - pose.y_m, VASE[0] - pose.x_m) - pose.yaw_rad)
@@ -135,8 +130,7 @@ def test_a_kind_that_only_a_model_knows_is_found_direction_by_direction(
     assert outcome.code is Code.FOUND, outcome
     assert outcome.message.en.endswith(" pictures).")
     assert "I see “vase” before me in the living room" in outcome.message.en
-    bill = plan.steps[0].bill
-    assert bill is not None
+    bill = known(plan.steps[0].bill)
     assert bill.pictures == len(model.poses) > 6, "all of the kitchen first"
     headings = [round(pose.yaw_rad, 1) for pose in model.poses[:6]]
     assert len(set(headings)) == 6, "another direction each time"

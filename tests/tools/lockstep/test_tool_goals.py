@@ -27,6 +27,7 @@ from planner.plan import (
     UseTool,
     list_nodes,
 )
+from tests.known import known
 from tools.lockstep import LockstepWorld
 from wire import Pose2
 
@@ -108,18 +109,15 @@ def test_a_goal_drives_right_and_tells_what_the_tool_said() -> None:
     assert world.contacts == 0
     assert [each.arguments for each in calendar.called] == [("today",)]
     record = goal.record
-    assert record.plan is not None
-    step = record.plan.steps[1]
+    step = known(record.plan).steps[1]
     assert (step.tool, step.arguments, step.code) == (
         "calendar.events",
         ("today",),
         "tool_answered",
     )
-    assert step.read is not None
-    assert "dentist" in step.read.en
+    assert "dentist" in known(step.read).en
     assert "I ask calendar: events (today)." in world.planner.said
-    assert record.outcome is not None
-    assert "dentist at ten" in record.outcome.message.en
+    assert "dentist at ten" in known(record.outcome).message.en
 
 
 def test_a_call_that_writes_waits_for_a_plain_yes_and_is_made_once() -> None:
@@ -151,8 +149,7 @@ def test_a_tool_that_fails_ends_the_goal_where_the_robot_stands() -> None:
     goal = world.say("tell me what is on, then go home")
     world.run_until(lambda _: goal.has_ended, limit_s=20.0)
     assert goal.state == "failed"
-    assert goal.record.outcome is not None
-    assert goal.record.outcome.code == "tool_failed"
+    assert known(goal.record.outcome).code == "tool_failed"
     assert world.planner.missions.loop.book.running is None
     assert world.standing
 

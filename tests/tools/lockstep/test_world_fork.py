@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
+from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import LockstepWorld
 from tools.lockstep.world_fork import fork_world
 from wire import Mode, SimFault
@@ -31,9 +30,7 @@ def test_a_copy_goes_on_to_the_bit_whatever_breaks_in_another() -> None:
     assert same.statuses[-1] == world.statuses[-1]
 
 
-def test_a_world_is_not_copied_while_its_planner_waits(
-    ready: Callable[..., LockstepWorld],
-) -> None:
+def test_a_world_is_not_copied_while_its_planner_waits(ready: Ready) -> None:
     world = ready(seed=5)
     world.say("go to the living room")
     with pytest.raises(ValueError, match="planner waits"):

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from tests.planner.perception.detect import tiny
 from tools.train.budget import CLASSES, HEIGHT_PX, WIDTH_PX
 from tools.train.evaluation import ScoredModel
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @pytest.fixture

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from random import Random
-from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
@@ -15,8 +14,10 @@ from planner.perception.detect.detector import MIN_SCORE as BELIEVED
 from planner.settings.vision import VisionSettings
 from sim.camera import Appearance, Renderer
 from sim.camera.scene import instances
+from sim.site import Home
 from sim.site.classes import CLASSES as OF_THE_SIMULATOR
 from sim.site.plan import solids
+from tests.known import known
 from tools.train.boxes import boxes, hulls, whole_box
 from tools.train.budget import CLASSES, MIN_SCORE, SAME
 from tools.train.evaluation import KEY as KEY_WRITTEN
@@ -24,9 +25,6 @@ from tools.train.frames import home_frames
 from tools.train.homes import drawn_home
 from tools.train.views import CLEAR_M, Views, targets
 from wire import CameraConfig, Pose2
-
-if TYPE_CHECKING:
-    from sim.site import Home
 
 Whole = tuple[float, float, float, float] | None
 
@@ -69,8 +67,7 @@ def test_frames_are_repeatable_and_boxes_lie_in_them(home: Home) -> None:
     again = home_frames(home, "x", 2)
     assert [frame.jpeg for frame in frames] == [frame.jpeg for frame in again]
     for frame in frames:
-        picture = cv2.imdecode(np.frombuffer(frame.jpeg, np.uint8), cv2.IMREAD_COLOR)
-        assert picture is not None
+        picture = known(cv2.imdecode(np.frombuffer(frame.jpeg, np.uint8), cv2.IMREAD_COLOR))
         assert picture.shape == (240, 320, 3)
         low, high = frame.things[:, 1:3], frame.things[:, 3:5]
         assert (low >= 0).all()

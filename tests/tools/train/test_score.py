@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from tools.train.score import (
@@ -88,10 +90,6 @@ def test_nothing_asked_for_is_no_score() -> None:
 def test_only_pictures_of_nothing_of_ours_are_empty() -> None:
     pictures = [([CUP], [cup(0.9, 60.0)]), ([], [cup(0.9), cup(0.4)]), ([], []), ([HIDDEN], [])]
     assert false_in_empty(pictures, {"cup": 0.4}) == (2, 2)
-    assert false_in_empty(
-        [([], [ScoredThing("ball", 0.5, CUP.box), cup(0.5)])], HALF | {"cup": 0.6}
-    ) == (
-        1,
-        1,
-    )
+    two: Any = [([], [ScoredThing("ball", 0.5, CUP.box), cup(0.5)])]
+    assert false_in_empty(two, HALF | {"cup": 0.6}) == (1, 1)
     assert false_in_empty(pictures, HALF) == (2, 1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,9 +18,6 @@ from tools.train.store import (
     shard_path,
     write,
 )
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 ONE = StoredFrame(b"first", np.array([[3, 1, 2, 30, 40, 1], [10, 5, 5, 9, 9, -1]], np.float32))
 NONE = StoredFrame(b"", np.zeros((0, 6), np.float32))

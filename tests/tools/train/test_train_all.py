@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import pytest
 
 from tools.train import __main__ as training
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 def test_steps_come_in_order_and_where_they_belong(tmp_path: Path) -> None:

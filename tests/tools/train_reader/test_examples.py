@@ -10,6 +10,7 @@ import pytest
 from planner.language.semantic_parser.linear_plan import TOKENS
 from planner.language.semantic_parser.plan_grammar import parse_plan, render_plan
 from planner.language.semantic_parser.units import Gazetteer, cut_units
+from tests.known import known
 from tools.train_reader.earlier_sentences import earlier_examples, home_names, label_of
 from tools.train_reader.evaluation import Verdict, bare, motions
 from tools.train_reader.examples import make_example, written_examples
@@ -51,8 +52,7 @@ def test_the_earlier_sentences_give_plans_of_the_grammar() -> None:
 
 def test_an_example_allows_what_it_does() -> None:
     said = cut_units("to the hall, then find my red cup", NAMES)
-    example = make_example("en1", "plain", said, 'go(hall); find("red cup")')
-    assert example is not None
+    example = known(make_example("en1", "plain", said, 'go(hall); find("red cup")'))
     for action, (tokens, units) in zip(example.actions, example.allowed, strict=True):
         assert TOKENS.index(action) in tokens if isinstance(action, str) else action in units
 
@@ -82,8 +82,7 @@ def test_articles_and_capitals_make_no_other_plan() -> None:
 def test_a_motion_is_another_where_place_or_condition_differ() -> None:
     said = cut_units("if Dad is in the hall go to the kitchen", NAMES)
     label = 'if check("Dad", in hall) { go(kitchen) }'
-    example = make_example("en1", "condition", said, label)
-    assert example is not None
+    example = known(make_example("en1", "condition", said, label))
     assert Verdict(example, parse_plan(label), 1.0).same_motion
     for other in (
         "go(kitchen)",
