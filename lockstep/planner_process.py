@@ -20,9 +20,9 @@ from planner.language.sentence import parse
 from planner.mission import Clocks, Missions
 from planner.mission.journal import JournalContents
 from planner.mission.perception_requests import nothing_spent
-from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.mission.state import GoalKey
 from planner.navigation.frontier import FrontierMemory
+from planner.skills.perception import PictureCost, PictureLimits
 from wire import VIRTUAL_KEY, MarksFile, MarksRequest, OpKind, OpRequest, sign_marks, signed_request
 from wire.fence import fence_text
 

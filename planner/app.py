@@ -22,7 +22,6 @@ from planner.memory import MemoryLimits, MemoryStore, Recollection, SightingReco
 from planner.mission import JournalSync, MissionJournal, Missions, Rules
 from planner.mission.goal_history import GoalHistory
 from planner.mission.memory_lookup import step_kind
-from planner.mission.skills.spatial_relations import support_of
 from planner.navigation import RouteLimits, RouteWorker
 from planner.orders.factory import standing_orders_of
 from planner.people import People
@@ -40,6 +39,7 @@ from planner.site import FenceProposals, KnownPlaces, Site, TaughtPlaces
 from planner.site.marks import marks_path
 from planner.skill_files.folder import SkillFolder
 from planner.skill_files.keep import SkillKeeper
+from planner.skills.spatial_relations import support_of
 from planner.spoken_replies import SpokenReplies
 from planner.state_database import open_sound
 from planner.tool_servers import ToolDesk

@@ -13,8 +13,6 @@ from planner.brain.prompt_tokens import PICTURE_TOKENS
 from planner.budget.totals import cost
 from planner.language.catalogue import list_names, say
 from planner.language.object_names import name_object
-from planner.mission.skills.perception import PictureCost, PictureLimits
-from planner.mission.skills.search_bounds import MOST_PICTURES
 from planner.perception import VisionFailure, VisionWorker
 from planner.perception.failure import REFUSALS
 from planner.perception.frame_source import WireCamera
@@ -22,6 +20,8 @@ from planner.perception.frame_update import Scenery
 from planner.perception.perception_loop import PerceptionParts, Sightseer
 from planner.perception.pose_buffer import Poses
 from planner.plan import Bilingual
+from planner.skills.perception import PictureCost, PictureLimits
+from planner.skills.search_bounds import MOST_PICTURES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -1,7 +1,7 @@
 """Show a plan before it moves: the legs that its steps would drive, by the route search of drives.
 
 Nothing here moves, journals or asks a model. A step's legs are those of its own skill
-(``planner.mission.skills``), found on the costmap of now and from where the step before would end;
+(``planner.skills``), found on the costmap of now and from where the step before would end;
 what hangs on a picture, a person or memory is told as open, and no way is made up for it.
 """
 
@@ -17,7 +17,6 @@ from planner.language.catalogue import message, say
 from planner.language.formatting import definite
 from planner.language.sentence import parse
 from planner.mission.leg_routes import SHORT_M
-from planner.mission.skills import DriveLeg, Fail, Scene, Way, act_of, begin_state, no_room
 from planner.navigation import RouteFailure, RouteRequest
 from planner.navigation.drive_time import leg_s, spin_s
 from planner.plan import (
@@ -33,6 +32,7 @@ from planner.plan import (
 )
 from planner.plan.base import Frozen
 from planner.skill_files.calls import SkillFailure, SkillScene, unfold
+from planner.skills import DriveLeg, Fail, Scene, Way, act_of, begin_state, no_room
 from wire import Pose2
 from wire.geometry import wrap
 

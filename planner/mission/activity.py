@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from planner.mission.recovery import LadderRung
-from planner.mission.skills.actions import AskImage, DriveLeg, Observe, Way
 from planner.plan import Bilingual
+from planner.skills.actions import AskImage, DriveLeg, Observe, Way
 from wire import Pose2
 
 

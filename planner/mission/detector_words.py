@@ -14,7 +14,7 @@ from planner.language.changes.reader import read_changes
 from planner.language.object_names import prepare
 from planner.language.sentence import parse
 from planner.mission.reducer import looks, looks_widely
-from planner.mission.skills.viewpoints import near_spot, spots_in
+from planner.skills.viewpoints import near_spot, spots_in
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine

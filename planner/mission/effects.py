@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 from planner.brain.interface import Exchange, Observation
 from planner.brain.situation import Situation
-from planner.mission.skills.actions import Way
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
 from planner.plan import Bilingual, ChangedOrder, Language, LastOrder, Span, StepPlan
+from planner.skills.actions import Way
 from wire import Pose2
 
 

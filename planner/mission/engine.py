@@ -16,9 +16,9 @@ from planner.mission.events import Event, Journalled, Routed, Seen
 from planner.mission.nav2_pilot import Nav2Pilot, pilot_of
 from planner.mission.reducer import advance, motion_request
 from planner.mission.route_doubts import meeting_share, standing_doubt
-from planner.mission.skills import Way
 from planner.mission.state import MissionState
 from planner.navigation import FloorReport, Horizon, LegPath, RoutePoint, cut
+from planner.skills import Way
 from wire import Nav2State, Record, RobotDescription, Status
 
 SPIN_MPS = 0.05

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from planner.mission.skills.perception import ImageAnswer as EyeAnswer
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import FloorReport
@@ -23,6 +22,7 @@ from planner.plan import (
     StepPlan,
 )
 from planner.site.site_view import SiteView
+from planner.skills.perception import ImageAnswer as EyeAnswer
 from wire import Status
 
 

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 
 from planner.mission.activity import RoutePurpose
 from planner.mission.legs import ask_route, new_leg
-from planner.mission.skills import Fail, Way
-from planner.mission.skills.skill_state import ExploreState
 from planner.mission.step_execution import go_on
 from planner.mission.step_failure import fail_step
 from planner.plan import Code
+from planner.skills import Fail, Way
+from planner.skills.skill_state import ExploreState
 from wire import Pose2
 
 if TYPE_CHECKING:

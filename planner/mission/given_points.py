@@ -16,10 +16,10 @@ from planner.language.plan_words import tell_steps
 from planner.mission.agents import is_agents
 from planner.mission.events import Planned, Submitted
 from planner.mission.reception import receive_points
-from planner.mission.skills.drive_to_place import SEES_FROM_M
 from planner.plan import GIVEN, Code, GoToPose, Language, Outcome, StepPlan, check_plan
 from planner.site import PlaceRefusal
 from planner.site.polygon import contains
+from planner.skills.drive_to_place import SEES_FROM_M
 from wire import Pose2
 
 if TYPE_CHECKING:

@@ -13,7 +13,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from planner.mission.skills.skill_state import (
+from planner.mission.state import Mission
+from planner.plan import Frozen
+from planner.skills.skill_state import (
     STATES,
     AimStage,
     ApproachStage,
@@ -23,8 +25,6 @@ from planner.mission.skills.skill_state import (
     Point3,
     PointingStage,
 )
-from planner.mission.state import Mission
-from planner.plan import Frozen
 
 
 class _Notes(Frozen):

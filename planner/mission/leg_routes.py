@@ -27,13 +27,13 @@ from planner.mission.recovery_steps import (
 )
 from planner.mission.route_doubts import take_doubted
 from planner.mission.scene import scene_of
-from planner.mission.skills import Fail, Way, act_of
 from planner.mission.state import Mission, Progress
 from planner.mission.step_execution import carry_out
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.plan import Code
 from planner.site.polygon import contains
+from planner.skills import Fail, Way, act_of
 from wire import Pose2
 
 SHORT_M = 0.05

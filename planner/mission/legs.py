@@ -20,14 +20,14 @@ from planner.mission.activity import Driving, RoutePurpose
 from planner.mission.effects import AskRoute
 from planner.mission.queue import finish, standing_hold
 from planner.mission.recovery import passes_m, shut_now, waits_for_other
-from planner.mission.skills import Fail, Way, no_room
-from planner.mission.skills.move import along
-from planner.mission.skills.turn import turned_rad
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Code, Outcome, PauseReason
+from planner.skills import Fail, Way, no_room
+from planner.skills.move import along
+from planner.skills.turn import turned_rad
 from wire import Mode, Pose2, Status
 
 MAX_ROUTES = 5

@@ -36,21 +36,21 @@ from planner.mission.gc_control import Collector
 from planner.mission.journal_sync import Disk
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
-from planner.mission.skills import Eyesight
 from planner.mission.state import GoalKey, MissionState, Rules
 from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import Answers, MissionTasks, call_nothing
 from planner.navigation import RouteResult
+from planner.skills import Eyesight
 from wire import OpRequest, Status, Waypoints
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
     from planner.mission.perception_requests import Spent
     from planner.mission.scan_sender import ScanSender
-    from planner.mission.skills.perception import PictureLimits
     from planner.mission.tasks import Recaller, RouteService, Think, ToolCaller
     from planner.perception.interfaces import Eyes
     from planner.perception.snapshot import Sight
+    from planner.skills.perception import PictureLimits
     from wire import CameraConfig
 
 TICK_S = 0.1

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 from planner.mission.activity import Manoeuvre, RoutePurpose
 from planner.mission.legs import ask_route
 from planner.mission.recovery import LADDER, Recovery, begin_ladder, note_obstruction
-from planner.mission.skills import Way
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import is_wide
+from planner.skills import Way
 from wire import Pose2
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from planner.mission.account import place_name
 from planner.mission.activity import Driving, RoutePurpose
 from planner.mission.legs import ask_route
 from planner.mission.obstruction_text import tell_occupied
-from planner.mission.skills import Fail
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.plan import Code
+from planner.skills import Fail
 from wire import Pose2
 
 OCCUPIED_S = 10.0

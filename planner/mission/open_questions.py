@@ -20,9 +20,6 @@ from planner.mission.outcomes import ended_outcome, moves
 from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.queue import clear_hold, enqueue, finish, hold_now, note_step, release_answered
 from planner.mission.scene import scene_of, upon_yes, whole_deed
-from planner.mission.skills import Fail
-from planner.mission.skills.ask import ask, tell_declined
-from planner.mission.skills.skill_state import BoundedSearchState
 from planner.mission.state import MAX_ANSWERS, MAX_OPEN, GivenOrder, Mission, MissionState, Planning
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact, PersonCause
@@ -36,6 +33,9 @@ from planner.plan import (
     StepState,
     say_same,
 )
+from planner.skills import Fail
+from planner.skills.ask import ask, tell_declined
+from planner.skills.skill_state import BoundedSearchState
 
 MAX_ANSWER = 2000
 SUPERSEDED = "superseded"

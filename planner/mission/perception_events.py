@@ -20,7 +20,12 @@ from planner.mission.legs import ask_route
 from planner.mission.outcomes import looks_into
 from planner.mission.queue import settle_activity
 from planner.mission.scene import pose_now, scene_of
-from planner.mission.skills import (
+from planner.mission.step_execution import carry_out, go_on
+from planner.mission.step_failure import fail_step
+from planner.mission.transaction import Transaction
+from planner.perception.snapshot import Sight
+from planner.plan import Code
+from planner.skills import (
     DriveLeg,
     Fail,
     Finish,
@@ -31,14 +36,9 @@ from planner.mission.skills import (
     Way,
     act_of,
 )
-from planner.mission.skills.conditions import judge_recalled
-from planner.mission.skills.object_matching import fresh, list_confirmed
-from planner.mission.skills.skill_state import LookState, PatrolState, ToolState
-from planner.mission.step_execution import carry_out, go_on
-from planner.mission.step_failure import fail_step
-from planner.mission.transaction import Transaction
-from planner.perception.snapshot import Sight
-from planner.plan import Code
+from planner.skills.conditions import judge_recalled
+from planner.skills.object_matching import fresh, list_confirmed
+from planner.skills.skill_state import LookState, PatrolState, ToolState
 from wire import wrap
 
 if TYPE_CHECKING:

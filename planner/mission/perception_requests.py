@@ -20,8 +20,8 @@ from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImagePoint, 
 from planner.brain.image_questions import PosedPicture as Shown
 from planner.memory import MEDIA_TYPES, KeptPicture
 from planner.mission.events import Told
-from planner.mission.skills.perception import ImageAnswer, PictureCost
 from planner.perception.interfaces import PointRefusal
+from planner.skills.perception import ImageAnswer, PictureCost
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker

@@ -19,10 +19,6 @@ from planner.language.formatting import angle, metres
 from planner.language.questions import find_elsewhere
 from planner.language.room_names import sorts_of_room
 from planner.mission.scene import name_deed, name_sought
-from planner.mission.skills import SKILLS
-from planner.mission.skills.object_matching import anybody_for, picks_out, read_object
-from planner.mission.skills.object_query import place_names, unknown_kind
-from planner.mission.skills.result_text import unknown_name, unknown_words
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
     CONTROL,
@@ -37,6 +33,10 @@ from planner.plan import (
     places_of,
     say_same,
 )
+from planner.skills import SKILLS
+from planner.skills.object_matching import anybody_for, picks_out, read_object
+from planner.skills.object_query import place_names, unknown_kind
+from planner.skills.result_text import unknown_name, unknown_words
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

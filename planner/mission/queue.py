@@ -20,7 +20,6 @@ from planner.mission.activity import (
 )
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended_outcome, failure
-from planner.mission.skills.state_base import SkillStateBase
 from planner.mission.state import AGENT_SOURCE, GivenOrder, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
@@ -32,6 +31,7 @@ from planner.plan import (
     PauseReason,
     StepState,
 )
+from planner.skills.state_base import SkillStateBase
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import join, message, say
 from planner.language.object_names import name_object, tell_words
 from planner.memory import FACT, PERSON
-from planner.mission.skills.result_text import name_one
 from planner.plan import Code
+from planner.skills.result_text import name_one
 
 if TYPE_CHECKING:
     from planner.memory import Memo

@@ -36,11 +36,11 @@ from planner.mission.recovery import (
     turn_out,
     wait_s,
 )
-from planner.mission.skills import Fail, Way
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.plan import Code
+from planner.skills import Fail, Way
 from wire import Pose2, Status, wrap
 
 RETRY_S = 1.0

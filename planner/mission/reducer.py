@@ -57,12 +57,12 @@ from planner.mission.plan_roles import change_speed
 from planner.mission.queue import cancel, reorder
 from planner.mission.recovery_steps import on_survey
 from planner.mission.route_doubts import on_closing_in, on_doubted, on_oncoming
-from planner.mission.skills.object_matching import names_any
 from planner.mission.state import MissionState
 from planner.mission.status_monitor import on_status, on_tick
 from planner.mission.step_execution import speak_if_safe, start_next
 from planner.mission.transaction import Transaction
 from planner.plan import NEEDS_CAMERA, NEEDS_DETECTOR
+from planner.skills.object_matching import names_any
 
 __all__ = ["AskBrain", "advance", "motion_request"]
 

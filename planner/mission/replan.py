@@ -17,7 +17,6 @@ from planner.mission.plan_check import NO_STEPS, UNASKED, ask_for_motion, unwalk
 from planner.mission.plan_walk import asked_of, close_open
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of
-from planner.mission.skills.ask import ask_again
 from planner.mission.state import Mission
 from planner.mission.step_execution import begin_step, carry_out, next_step
 from planner.mission.step_failure import give_up
@@ -39,6 +38,7 @@ from planner.plan import (
     say_same,
 )
 from planner.site.site_view import SiteView
+from planner.skills.ask import ask_again
 
 SAME_AGAIN = say("plan.same_again")
 

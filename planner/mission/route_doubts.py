@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from planner.mission.activity import Driving, RouteDoubt, RoutePurpose
 from planner.mission.legs import ask_route, new_leg
-from planner.mission.skills import Way
+from planner.skills import Way
 
 if TYPE_CHECKING:
     from planner.mission.events import ClosingIn, Oncoming, Routed, RouteDoubted

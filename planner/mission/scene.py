@@ -18,8 +18,6 @@ from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
 from planner.mission.plan_walk import catch
 from planner.mission.queue import skill_state_now
-from planner.mission.skills import ImageAnswer, Scene, begin_state
-from planner.mission.skills.search_bounds import GRANT_M
 from planner.mission.state import ORDER_SOURCE, Mission, Planning
 from planner.mission.transaction import Transaction
 from planner.plan import (
@@ -34,6 +32,8 @@ from planner.plan import (
     places_of,
     say_same,
 )
+from planner.skills import ImageAnswer, Scene, begin_state
+from planner.skills.search_bounds import GRANT_M
 from wire import Pose2
 
 if TYPE_CHECKING:

@@ -14,9 +14,6 @@ from pydantic import Field, model_validator
 
 from planner.mission.activity import Activity
 from planner.mission.recovery import FRESH, RecoveryRecord
-from planner.mission.skills.actions import UNSEEN
-from planner.mission.skills.perception import NO_EYES, Eyesight
-from planner.mission.skills.skill_state import SkillState
 from planner.perception.snapshot import Sight
 from planner.plan import (
     ENDED,
@@ -35,6 +32,9 @@ from planner.plan import (
     root_of,
 )
 from planner.site.site_view import SiteView
+from planner.skills.actions import UNSEEN
+from planner.skills.perception import NO_EYES, Eyesight
+from planner.skills.skill_state import SkillState
 from wire import Status
 
 ORDER_SOURCE = "order:"

@@ -49,13 +49,13 @@ from planner.mission.recovery_steps import (
     recover,
     watch_manoeuvre,
 )
-from planner.mission.skills import Fail, Way
-from planner.mission.skills.drive_to_place import place_gone
 from planner.mission.step_execution import begin_step, end_wait_if_due
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Code, PauseReason, fault
+from planner.skills import Fail, Way
+from planner.skills.drive_to_place import place_gone
 from wire import Mode, Status
 
 SILENCE_S = 5.0

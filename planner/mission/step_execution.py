@@ -34,7 +34,12 @@ from planner.mission.queue import (
     yield_robot,
 )
 from planner.mission.scene import pose_now, scene_of
-from planner.mission.skills import (
+from planner.mission.state import Mission
+from planner.mission.step_failure import end_failed, fail_step, think, to_step
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import GoalFact
+from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, Outcome, StepState, parent_of
+from planner.skills import (
     AskImage,
     CallTool,
     DriveLeg,
@@ -53,13 +58,8 @@ from planner.mission.skills import (
     Think,
     act_of,
 )
-from planner.mission.skills.patrol import so_far
-from planner.mission.skills.skill_state import PatrolState
-from planner.mission.state import Mission
-from planner.mission.step_failure import end_failed, fail_step, think, to_step
-from planner.mission.transaction import Transaction
-from planner.mission.transitions import GoalFact
-from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, Outcome, StepState, parent_of
+from planner.skills.patrol import so_far
+from planner.skills.skill_state import PatrolState
 
 
 def start_next(turn: Transaction) -> None:

@@ -18,11 +18,11 @@ from planner.mission.outcomes import failure, spot_at
 from planner.mission.plan_walk import catch
 from planner.mission.queue import end_running, note_step, settle_activity
 from planner.mission.recovery import FRESH
-from planner.mission.skills import Fail, SkillStateBase
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, Outcome, StepState, parent_of, parents_of
+from planner.skills import Fail, SkillStateBase
 
 MENDABLE = frozenset(
     {

@@ -21,11 +21,11 @@ from planner.mission.effects import (
 )
 from planner.mission.events import Planned, Recalled, Told, ToolAnswered
 from planner.mission.perception_requests import EyeDoor
-from planner.mission.skills import Way
-from planner.mission.skills.perception import ImageAnswer
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.navigation.obstruction import points_of
 from planner.plan import Bilingual, Code, Outcome
+from planner.skills import Way
+from planner.skills.perception import ImageAnswer
 
 log = logging.getLogger(__name__)
 

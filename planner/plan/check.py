@@ -5,7 +5,7 @@ its repair (``planner.brain.endpoint.reply_validation``) and any brain's once mo
 (``planner.mission.plan_request``), both without a detector's classes. The missions, which trust no
 brain, judge it before any of it is carried out (``planner.mission.plan_check``), with those
 classes. Every reason is collected, so that a model can be asked to write the plan better. A camera
-that fails later is no fault of a plan: it ends its own step (``planner.mission.skills.act_of``).
+that fails later is no fault of a plan: it ends its own step (``planner.skills.act_of``).
 
 A plan that holds plans is judged whole, every branch of it, with bounds that hold over all rounds.
 

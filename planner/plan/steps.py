@@ -221,7 +221,7 @@ class ClockTime(Frozen):
 
 
 Condition = Annotated[Look | Find | Ask | Recall | ClockTime, Field(discriminator="kind")]
-"""What may be asked before steps are chosen; ``mission/skills/conditions.py`` judges each kind. A
+"""What may be asked before steps are chosen; ``skills/conditions.py`` judges each kind. A
 recall asks whether it is remembered as seen or done: what was merely told counts for nothing."""
 
 

@@ -12,8 +12,6 @@ import pytest
 from planner.brain.usage_meter import thinking_about
 from planner.brain_factory import brain_of, model_of
 from planner.budget import purse_of
-from planner.mission.skills.perception import PictureCost
-from planner.mission.skills.search_bounds import MOST_PICTURES
 from planner.perception import Detection, VisionFailure, VisionWorker
 from planner.perception_factory import (
     REFUSED_WITHIN_S,
@@ -24,6 +22,8 @@ from planner.perception_factory import (
     spent_by,
 )
 from planner.settings import VisionSettings, load_settings
+from planner.skills.perception import PictureCost
+from planner.skills.search_bounds import MOST_PICTURES
 from wire import RobotDescription
 
 ROBOT = RobotDescription()

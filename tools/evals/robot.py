@@ -22,7 +22,6 @@ from planner.mission.errors import MissionError
 from planner.mission.events import Planned
 from planner.mission.open_questions import asks
 from planner.mission.reception import hears_stop
-from planner.mission.skills.spatial_relations import support_of
 from planner.plan import (
     AnswerPlan,
     BrainTag,
@@ -35,6 +34,7 @@ from planner.plan import (
     say_same,
 )
 from planner.plan.slots import steps_of
+from planner.skills.spatial_relations import support_of
 from planner.state_database import StateDatabase
 from tools.evals.scripts import Reaction
 from tools.lockstep import LockstepWorld, TooLong

@@ -21,8 +21,8 @@ from planner.language.object_names import (
     synonyms,
     tell_words,
 )
-from planner.mission.skills.result_text import name_count
 from planner.plan import Bilingual, Language, say_same
+from planner.skills.result_text import name_count
 from tests.conftest import ROOT
 
 MEANT = {

@@ -14,12 +14,12 @@ from planner.mission.follow_up import lean_of
 from planner.mission.plan_request import things_of
 from planner.mission.reception import Reception, receive
 from planner.mission.reducer import advance
-from planner.mission.skills import Eyesight
 from planner.mission.state import Mission, MissionState
 from planner.perception.snapshot import Sight
 from planner.plan import ChangedOrder, Clarify, Code, GoalState, GoTo, Means, Plan, StepPlan
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
+from planner.skills import Eyesight
 from tests.conftest import ROOT
 from wire import CameraConfig
 

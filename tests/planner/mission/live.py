@@ -18,13 +18,13 @@ from planner.bridge_client import Link
 from planner.mission import Clocks, JournalSync, MissionJournal, Missions
 from planner.mission.journal_records import read_mission
 from planner.mission.perception_requests import nothing_spent
-from planner.mission.skills.perception import NO_PICTURES, PictureLimits
 from planner.mission.state import Mission
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, GoalState, GoTo, StepPlan, StepState
 from planner.site import Site
 from planner.site.known_places import KnownPlaces
+from planner.skills.perception import NO_PICTURES, PictureLimits
 from tests.planner.mission.fakes import PERIOD_S, FakeBridge, straight
 from wire import Pose2, RobotDescription, Status
 

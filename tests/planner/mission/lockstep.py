@@ -19,10 +19,10 @@ from planner.mission.effects import (
 )
 from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Planned, Restarted, Submitted
-from planner.mission.skills import Way
 from planner.mission.state import Mission, MissionState
 from planner.navigation import RoutePoint
 from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
+from planner.skills import Way
 from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
 from wire import Pose2
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from planner.mission.events import Sighted
-from planner.mission.skills import Eyesight
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import GoalState
+from planner.skills import Eyesight
 from tests.planner.mission.lockstep import Together
 from wire import CameraConfig
 

@@ -18,7 +18,6 @@ from planner.language.catalogue import message
 from planner.mission.effects import AskBrain, AskEyes, KeepPicture
 from planner.mission.events import Confirm, Planned, Reply, Sighted
 from planner.mission.perception_requests import EyeDoor
-from planner.mission.skills import Eyesight
 from planner.mission.state import Mission
 from planner.perception.interfaces import Picture
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
@@ -32,6 +31,7 @@ from planner.plan import (
     StepRecord,
     StepState,
 )
+from planner.skills import Eyesight
 from tests.planner.mission.lockstep import Together
 from wire import CameraConfig, Image, ImageHeader, Pose2, wrap
 

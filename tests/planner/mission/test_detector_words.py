@@ -15,9 +15,9 @@ from planner.language.changes.reader import read_changes
 from planner.language.motion_guard import mentioned_names
 from planner.mission import detector_words
 from planner.mission.detector_words import Wording, warm_up
-from planner.mission.skills import viewpoints
 from planner.site import Site
 from planner.site.known_places import KnownPlaces
+from planner.skills import viewpoints
 from tests.planner.mission.fakes import FACTS
 from tests.planner.mission.live import LiveBridge, Starter
 from tests.planner.mission.test_missions_see import FakeEyes

@@ -10,10 +10,10 @@ import pytest
 from planner.mission.effects import AskRoute
 from planner.mission.events import Pause, Resume
 from planner.mission.exploration import AGAIN_S
-from planner.mission.skills import Way
-from planner.mission.skills.explore import DRAWN_S, MOST_SHUT, TURNS
 from planner.navigation import FloorReport
 from planner.plan import Code, Explore, ReturnHome, StepPlan, StepState
+from planner.skills import Way
+from planner.skills.explore import DRAWN_S, MOST_SHUT, TURNS
 from tests.planner.mission.driving import PAUSED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import FACTS, outcome_of, straight
 from tests.planner.mission.lockstep import Together

@@ -12,8 +12,10 @@ from pydantic import ValidationError
 
 from planner.mission.events import Reply, Restarted, Resume
 from planner.mission.journal_records import read_mission
-from planner.mission.skills import SKILLS
-from planner.mission.skills.skill_state import (
+from planner.mission.state import Mission
+from planner.plan import GoalState, StepState
+from planner.skills import SKILLS
+from planner.skills.skill_state import (
     STATES,
     ApproachStage,
     AskStage,
@@ -29,9 +31,7 @@ from planner.mission.skills.skill_state import (
     PointingStage,
     SkillState,
 )
-from planner.mission.skills.state_base import SkillStateBase
-from planner.mission.state import Mission
-from planner.plan import GoalState, StepState
+from planner.skills.state_base import SkillStateBase
 from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.former_records import (
     APPROACH,

@@ -24,9 +24,9 @@ from planner.mission.effects import Journal
 from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import PRUNE_MOST, SCHEMA, _facts, _in_one, _keys, _upsert_of
 from planner.mission.journal_sync import JournalWriter, PendingEntry
-from planner.mission.skills.skill_state import FindState
 from planner.mission.state import MAX_ENDED, GoalKey, Mission
 from planner.plan import Code, GoalState, Language, Outcome, Say, StepPlan, StepState
+from planner.skills.skill_state import FindState
 from tests.killed_writers import kill_writers
 from tests.planner.mission.driving import SUCCEEDED, driving, standing_still
 from tests.planner.mission.former_records import DRIVE, FIND, YOUNGER

@@ -35,7 +35,6 @@ from planner.mission.events import (
     Told,
 )
 from planner.mission.reducer import advance, motion_request
-from planner.mission.skills import Eyesight, ImageAnswer
 from planner.mission.state import Mission, MissionState
 from planner.navigation.obstruction import Obstruction
 from planner.perception.snapshot import LookSnapshot as LookSeen
@@ -62,6 +61,7 @@ from planner.plan import (
     Wait,
 )
 from planner.plan import MoveStraight as MoveStep
+from planner.skills import Eyesight, ImageAnswer
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, row, status
 from wire import Action, CameraConfig, HeldReason, LegReport, Mode, Pose2, StandingHold, Twist2

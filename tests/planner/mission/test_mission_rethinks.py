@@ -10,7 +10,6 @@ import pytest
 from planner.language.catalogue import message
 from planner.mission.events import Cancel, Confirm, Known, Pause, Planned, Reply, Resume, Stopped
 from planner.mission.replan import ROAMS, SAME_AGAIN
-from planner.mission.skills import Eyesight
 from planner.plan import (
     AnswerPlan,
     Ask,
@@ -40,6 +39,7 @@ from planner.plan import (
     Wait,
     say_same,
 )
+from planner.skills import Eyesight
 from tests.planner.mission.driving import CANCELLED, FAILED, PAUSED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.lockstep import Together, go

@@ -9,10 +9,10 @@ from functools import cache
 import pytest
 
 from planner.mission.events import Reply, Tick
-from planner.mission.skills.skill_state import FindState
 from planner.mission.state import Mission
 from planner.plan import Code, ComeBack, Count, Find, GoalState, GoTo, If, Say, Step, StepPlan
 from planner.site.site_view import SiteView
+from planner.skills.skill_state import FindState
 from tests.planner.mission.fakes import FACTS, outcome_of, room
 from tests.planner.mission.seeing import CUP, Seeing
 from wire import Grant

@@ -10,8 +10,6 @@ from planner.mission.activity import Driving, Observing
 from planner.mission.events import Cancel, Pause, Reply, Resume, Tick, Told
 from planner.mission.observations import list_observations
 from planner.mission.reducer import asked_about_picture
-from planner.mission.skills import Eyesight, ImageAnswer
-from planner.mission.skills.skill_state import FindState, GoToObjectState
 from planner.plan import (
     Code,
     Count,
@@ -26,6 +24,8 @@ from planner.plan import (
     StepPlan,
     StepState,
 )
+from planner.skills import Eyesight, ImageAnswer
+from planner.skills.skill_state import FindState, GoToObjectState
 from tests.planner.mission.driving import (
     CANCELLED,
     FAILED,

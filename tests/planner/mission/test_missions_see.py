@@ -23,8 +23,6 @@ from planner.mission.effects import AskEyes, KeepPicture
 from planner.mission.events import Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
-from planner.mission.skills import AskImage, DriveLeg, ImageAnswer, Observe
-from planner.mission.skills.perception import PictureCost, PictureLimits
 from planner.mission.state import MissionState
 from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
 from planner.perception.interfaces import MapPoint, Picture, PointRefusal
@@ -45,6 +43,8 @@ from planner.plan import (
     say_same,
 )
 from planner.site import Site
+from planner.skills import AskImage, DriveLeg, ImageAnswer, Observe
+from planner.skills.perception import PictureCost, PictureLimits
 from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.live import LiveBridge, Together, planner
 from tests.planner.perception.watching import World

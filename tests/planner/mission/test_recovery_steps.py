@@ -18,10 +18,10 @@ from planner.mission.recovery import (
     Recovery,
     turn_out,
 )
-from planner.mission.skills import Way
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import WIDE_M
 from planner.plan import Code, GoTo, StepPlan
+from planner.skills import Way
 from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import outcome_of, row
 from tests.planner.mission.lockstep import Together

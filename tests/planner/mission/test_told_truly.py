@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.mission.skills.skill_state import LookState
 from planner.mission.state import Mission
 from planner.plan import (
     AnswerPlan,
@@ -29,6 +28,7 @@ from planner.plan import (
     StepPlan,
     say_same,
 )
+from planner.skills.skill_state import LookState
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.telling import NOTHING, Telling, thing, untruths

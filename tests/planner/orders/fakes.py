@@ -14,7 +14,6 @@ from planner.mission.effects import AskBrain
 from planner.mission.errors import MissionError
 from planner.mission.events import Planned
 from planner.mission.plan_request import thinker
-from planner.mission.skills.perception import Eyesight
 from planner.mission.standing_goals import StandingGoals
 from planner.mission.state import Mission, MissionState
 from planner.orders.factory import StandingOrders
@@ -39,6 +38,7 @@ from planner.plan import (
 )
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
+from planner.skills.perception import Eyesight
 from planner.state_database import StateDatabase
 from tests.wire.examples import STATUS
 from wire import CameraConfig, Mode, Status

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from planner.brain import ScriptedBrain
-from planner.mission.skills.skill_state import FindState
 from planner.plan import (
     Code,
     Count,
@@ -23,6 +22,7 @@ from planner.plan import (
     StepPlan,
     StepRecord,
 )
+from planner.skills.skill_state import FindState
 from tests.known import known
 from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld

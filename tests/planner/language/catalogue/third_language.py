@@ -24,24 +24,24 @@ from planner.language.formatting import angle, metres
 from planner.language.object_classes import KINDS
 from planner.language.object_names import list_kinds, name_object, named_several
 from planner.language.place_lists import known_places
-from planner.mission.skills import Eyesight, act_of
-from planner.mission.skills.directions import direction
-from planner.mission.skills.perception import ImageAnswer, WantedObject
-from planner.mission.skills.result_text import (
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
+from planner.plan import RUNNABLE, Bilingual, Clarify, Language, Refuse
+from planner.plan import AnswerPlan as Reply
+from planner.site import Site
+from planner.site.site_view import facts_of, vocabulary_of
+from planner.skills import Eyesight, act_of
+from planner.skills.directions import direction
+from planner.skills.perception import ImageAnswer, WantedObject
+from planner.skills.result_text import (
     found_at,
     looked_in,
     name_count,
     name_one,
     unknown_words,
 )
-from planner.mission.skills.skill_state import LookStage, LookState
-from planner.perception.snapshot import LookSnapshot, Sight, Thing
-from planner.plan import RUNNABLE, Bilingual, Clarify, Language, Refuse
-from planner.plan import AnswerPlan as Reply
-from planner.site import Site
-from planner.site.site_view import facts_of, vocabulary_of
+from planner.skills.skill_state import LookStage, LookState
 from pons_assets import DEFAULT_SITE
-from tests.planner.mission.skills.scenes import scene
+from tests.planner.skills.scenes import scene
 from wire import CameraConfig, Pose2
 
 SENTENCES = (

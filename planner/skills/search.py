@@ -1,0 +1,329 @@
+"""Search for one thing: look again at remembered ones, then look round in rooms. Pure.
+
+``search`` returns the next leg or gaze, the thing itself once a gaze has confirmed it, or its state
+when all was looked at or the budget is spent. What is seen on the way is gone to at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import cos, sin
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from planner.language.color_names import may_be
+from planner.perception.snapshot import Thing
+from planner.skills.actions import DriveLeg, Observe, Scene, Way
+from planner.skills.look_around import FACING_RAD, LOOKS, leg_to, look_round, spin
+from planner.skills.object_matching import (
+    WORTH,
+    away_m,
+    bearing,
+    fits,
+    is_placed,
+    list_confirmed,
+    may_fit,
+    spot_of,
+    turn_to,
+)
+from planner.skills.search_bounds import (
+    FROM_ROOM_TO_ROOM,
+    ROUND_ABOUT,
+    bound_pictures,
+    bound_search,
+    way_after_m,
+    way_m,
+)
+from planner.skills.skill_state import (
+    AimStage,
+    ModelSearchState,
+    RoomTourState,
+    SearchState,
+)
+from planner.skills.viewpoints import (
+    HERE,
+    Viewpoint,
+    in_order,
+    near_spot,
+    room_at,
+    room_of,
+    spots_in,
+)
+
+if TYPE_CHECKING:
+    from planner.skills.perception import WantedObject
+    from planner.skills.search_bounds import SearchBounds
+    from wire import Pose2
+
+Search = TypeVar("Search", bound=SearchState)
+Tour = TypeVar("Tour", bound=RoomTourState)
+VIEW_M = 1.6
+"""From so far a thing is looked at again: near enough for a cup, and the floor there is in view."""
+NEAR_M = 2.6
+"""Nearer than this, in the same room, it is looked at from where the robot stands."""
+WORTH_S = 3600.0
+"""What was seen longer ago tells which room to begin with, and no more."""
+AWAY = 2.5
+"""A thing may be told by its room alone: how far beyond a place it still belongs to it [m]."""
+
+
+def search(
+    scene: Scene[Search], pose: Pose2, wanted: WantedObject
+) -> DriveLeg | Observe | Thing | Search:
+    """Return the next act, or the thing that was found, or the state when it was not."""
+    scene = begin(scene, pose, wanted, first=True)
+    next_ = _next(scene, pose, wanted)
+    if isinstance(next_, DriveLeg) and not affords(scene, pose, next_):
+        return stop_short(scene, next_)
+    if isinstance(next_, (DriveLeg, Observe)):  # the order holds from its first act on
+        return replace(cap_leg(scene, next_), state=scene.state)
+    return next_
+
+
+def _next(
+    scene: Scene[Search], pose: Pose2, wanted: WantedObject
+) -> DriveLeg | Observe | Thing | Search:
+    inside = make_filter(scene)
+    seen = [t for t in _list_confirmed(scene, wanted) if inside(t)]
+    if seen:
+        return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)))
+    if find_spent_budget(scene) is not None:
+        return scene.state
+    known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.state.tried]
+    near = [t for t in known if _reaches(scene, pose, (t.x_m, t.y_m))]
+    if not near:
+        next_ = look_round(scene, pose, spots(scene, pose), wanted)
+        if not isinstance(next_, SearchState):
+            return next_
+        if known:
+            return next_.but(out_of_metres=True)
+        scene = scene.but(next_)  # all was looked at: light or distance may have changed a colour
+        known = [t for t in alike(scene, wanted) if t.id not in next_.tried]
+        if not known:
+            return next_
+    nearest = min(near or known, key=lambda t: (not fits(t, wanted), away_m(pose, (t.x_m, t.y_m))))
+    return _look_again(scene, pose, nearest, wanted)
+
+
+def affords(scene: Scene[Any], pose: Pose2, next_: DriveLeg | Observe) -> bool:
+    """Return whether the metres left are likely to last for the next act and the plan's rest."""
+    if not isinstance(next_, DriveLeg) or next_.way is Way.SPIN:
+        return True
+    return _reaches(scene, pose, (next_.goal.x_m, next_.goal.y_m))
+
+
+def _reaches(scene: Scene[Any], pose: Pose2, at: tuple[float, float]) -> bool:
+    ahead_m = ROUND_ABOUT * away_m(pose, at) + way_after_m(at, scene.afterwards)
+    return scene.spent_m + ahead_m <= _bounds(scene).end_m
+
+
+def stop_short(scene: Scene[Tour], leg: DriveLeg) -> Tour:
+    """Return the state of a search without its next leg, with all that was looked at before it."""
+    state: Tour = leg.otherwise or scene.state  # type: ignore[assignment]  # of the same skill
+    return state.but(missed=None, out_of_metres=True)
+
+
+def cap_leg(scene: Scene[Any], act: DriveLeg | Observe) -> DriveLeg | Observe:
+    """Return an act of a search that ends with the search's own metres."""
+    if not isinstance(act, DriveLeg) or act.way is Way.SPIN:
+        return act
+    left_m = max(0.0, _bounds(scene).end_m - scene.spent_m)
+    return replace(act, limit_m=left_m if act.limit_m is None else min(act.limit_m, left_m))
+
+
+def find_spent_budget(scene: Scene[SearchState] | Scene[ModelSearchState]) -> str | None:
+    """Return the budget that a search has used up, or None."""
+    bounds = _bounds(scene)
+    if scene.state.out_of_metres or not scene.spent_m <= bounds.begin_m:
+        return "metres"
+    return None if scene.spent_s <= bounds.seconds else "seconds"
+
+
+def _bounds(scene: Scene[Any]) -> SearchBounds:
+    return bound_search(scene.facts, scene.left_m)
+
+
+def list_unseen(scene: Scene[Any]) -> tuple[str, ...]:
+    """Return the rooms of a search that were not looked in, in its order; shut ones are apart."""
+    state = scene.state
+    return tuple(r for r in state.order if r not in state.rooms and r not in state.shut)
+
+
+def ran_out(scene: Scene[Any]) -> bool:
+    """Tell whether a search ended before all was looked at: for want of a way, time or pictures.
+
+    A search that its eyes could not carry out has not run out: nothing is known.
+    """
+    state = scene.state
+    return any(room not in state.rooms for room in state.shut) or may_go_on(scene)
+
+
+def may_go_on(scene: Scene[Any]) -> bool:
+    """Tell whether nothing but its own bounds ended a search."""
+    shown = getattr(scene.state, "shown", 0)
+    return (shown > 0 and shown >= bound_pictures(scene)) or find_spent_budget(scene) is not None
+
+
+def make_filter(scene: Scene[Any]) -> PlaceFilter:
+    """Return the test whether a thing lies where the step is to look."""
+    return PlaceFilter(scene)
+
+
+class PlaceFilter:
+    """Judge things by the place that a step names; without one all are meant."""
+
+    def __init__(self, scene: Scene[Any]) -> None:
+        self._target = scene.facts.targets.get(scene.step.place or "")
+        self._facts = scene.facts
+        self._room = room_of(scene.facts, scene.step.place)
+
+    def __call__(self, thing: Thing) -> bool:
+        if self._target is None:
+            return True
+        if self._target.room:
+            room = thing.room or room_at(self._facts, (thing.x_m, thing.y_m))
+            return room == self._target.id
+        return away_m(self._target.pose, (thing.x_m, thing.y_m)) <= AWAY
+
+
+def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[Viewpoint, ...]:
+    """Return all spots to look round from, in order.
+
+    A room is looked through from all its spots before the next, as long as the metres last for the
+    other rooms; else those come first, and what was passed over is looked at with what is left.
+    """
+    facts, target = scene.facts, scene.facts.targets.get(scene.step.place or "")
+    if target is not None and not target.room:
+        at = (target.pose.x_m, target.pose.y_m)
+        return (Viewpoint(f"{target.id}/0", room_of(facts, target.id), at),)
+    first = scene.state.here or (pose.x_m, pose.y_m)
+    room, order = room_at(facts, first), scene.state.order
+    rooms = [facts.targets[r] for r in order if r != room and r in facts.targets]
+    groups: list[tuple[Viewpoint, ...]] = []
+    if room in order:
+        groups.append((Viewpoint(HERE, room, first), *spots_in(facts.targets[room], first)[1:]))
+    elif room is None and target is None:
+        groups.append((Viewpoint(HERE, None, first),))
+    groups += [spots_in(target) for target in rooms]
+    near = [*near_spot(facts.targets[room], first)] if room in order else []
+    # what lay before the feet comes last: it is seldom there
+    near += [spot for target in rooms for spot in near_spot(target)]
+    return (*_rooms_first(scene, pose, groups), *near)
+
+
+def _rooms_first(
+    scene: Scene[RoomTourState], pose: Pose2, groups: list[tuple[Viewpoint, ...]]
+) -> list[Viewpoint]:
+    """Put off the further spots of rooms where the metres would not last for the other rooms."""
+    state, at = scene.state, (pose.x_m, pose.y_m)
+    over = (spot for spot in (state.missed, state.spot) if spot is not None)
+    done = (*state.spots, *over)  # the spot that is looked round from is about to be
+    ahead = tuple(group[0].at for group in groups if group[0].key not in done)
+    now: list[Viewpoint] = []
+    later: list[Viewpoint] = []
+    for group in groups:
+        inside = bool(done) and done[-1] in {spot.key for spot in group}
+        if group[0].key not in done:
+            now += group
+        elif inside and ahead and all(_lasts(scene, (at, s.at, *ahead)) for s in group[1:]):
+            now = [*group, *now]
+        else:
+            later = [*group, *later]
+    return [*now, *later]
+
+
+def _lasts(scene: Scene[Any], way: tuple[tuple[float, float], ...]) -> bool:
+    """Tell whether the metres are likely to last for a way through rooms, and the plan's rest."""
+    ahead_m = FROM_ROOM_TO_ROOM * way_m(way) + way_after_m(way[-1], scene.afterwards)
+    return scene.spent_m + ahead_m <= _bounds(scene).begin_m
+
+
+def begin(
+    scene: Scene[Tour], pose: Pose2, wanted: WantedObject | None, *, first: bool = False
+) -> Scene[Tour]:
+    """Return the scene with where the robot stood first, and the rooms in their order.
+
+    Where the ``first`` that is found ends the step, likely rooms come early; else all is looked at,
+    and the shorter way counts.
+    """
+    if scene.state.here is not None:
+        return scene
+    known = tuple(t for t in scene.sight.things if wanted is not None and _leads(t, wanted))
+    here = (round(pose.x_m, 3), round(pose.y_m, 3))
+    place = scene.facts.targets.get(scene.step.place or "")
+    order = (
+        in_order(scene.facts, pose, known, wanted if first else None)
+        if place is None
+        else (place.id,)
+    )
+    return scene.but(scene.state.but(here=here, order=order))
+
+
+def _leads(thing: Thing, wanted: WantedObject) -> bool:
+    """Tell whether a thing says in which room to begin: where its neighbour is, it may well be."""
+    return fits(thing, wanted.by or wanted)
+
+
+def _list_confirmed(scene: Scene[Any], wanted: WantedObject) -> tuple[Thing, ...]:
+    if scene.gazed_s is None:
+        return ()
+    return list_confirmed(scene.sight, wanted, scene.gazed_s)
+
+
+def _worth(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
+    """Return the things worth a second look: remembered ones, and unsure ones of this gaze."""
+    return [t for t in _list_remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
+
+
+def alike(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
+    """Return the things that would fit if their colour were seen wrongly, as from afar."""
+    inside, others = make_filter(scene), _list_remembered(scene, wanted)
+    return [
+        t for t in others if inside(t) and not fits(t, wanted) and may_be(t.color, wanted.color)
+    ]
+
+
+def _list_remembered(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
+    oldest_s = scene.now_s - WORTH_S
+    return [
+        t
+        for t in scene.sight.things
+        if t.label == wanted.label
+        and t.seen_s >= oldest_s
+        and t.confidence >= WORTH
+        and is_placed(t, wanted, scene.sight.things)
+    ]
+
+
+def _look_again(
+    scene: Scene[SearchState], pose: Pose2, thing: Thing, wanted: WantedObject
+) -> DriveLeg | Observe:
+    """Go to where a thing can be seen, face it, gaze; then it is confirmed, or was tried."""
+    state, at = scene.state, spot_of(thing)
+    stage = state.aim_stage if state.aim == thing.id else AimStage.CHOSEN
+    tried = state.but(tried=(*state.tried, thing.id), aim=None, aim_stage=AimStage.CHOSEN)
+    if stage is AimStage.CHOSEN and not _in_sight(scene, pose, thing):
+        stand, heading = short_of(pose, at[:2], VIEW_M)
+        there = state.but(aim=thing.id, aim_stage=AimStage.NEAR)
+        return leg_to(pose, stand, heading, there, tried)
+    if stage is not AimStage.FACING and abs(turn_to(pose, at[:2])) > 2.0 * FACING_RAD:
+        facing = state.but(aim=thing.id, aim_stage=AimStage.FACING)
+        return spin(pose, bearing(pose, at[:2]), facing)
+    return Observe(LOOKS + 2, then=tried, wanted=wanted)
+
+
+def _in_sight(scene: Scene[Any], pose: Pose2, thing: Thing) -> bool:
+    """Tell whether a turn on the spot is likely to show a thing."""
+    away = away_m(pose, (thing.x_m, thing.y_m))
+    room = thing.room or room_at(scene.facts, (thing.x_m, thing.y_m))
+    return 0.7 <= away <= NEAR_M and room == room_at(scene.facts, (pose.x_m, pose.y_m))
+
+
+def short_of(
+    pose: Pose2, at: tuple[float, float], short_m: float, turn_rad: float = 0.0
+) -> tuple[tuple[float, float], float]:
+    """Return the point before a thing, seen from the robot, and the heading that faces it.
+
+    ``turn_rad`` goes about the thing to another side.
+    """
+    heading = bearing(pose, at) + turn_rad
+    return (at[0] - short_m * cos(heading), at[1] - short_m * sin(heading)), heading
