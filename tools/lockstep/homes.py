@@ -60,37 +60,6 @@ def hall(parent: Path) -> Path:
     return _write(parent, _home("hall", rooms, [], {}, (2.0, middle, 0)))
 
 
-def wing_home(parent: Path, count: int, seed: int = 0) -> Path:
-    """Write a home of so many rooms, an even number, on both sides of one long hallway.
-
-    Each room is 3.4 to 4.4 m wide and deep, with a table in a corner and a door to the hallway.
-
-    Raises:
-        ConfigError: the home drawn is not allowed.
-    """
-    random = Random(f"wing {count} {seed}")
-    rooms, furniture = dict[str, object](), dict[str, object]()
-    doors = list[dict[str, object]]()
-    ends = [0.0, 0.0]
-    low, high = 4.4, 6.0
-    for index in range(count):
-        above, x = index % 2, ends[index % 2]
-        wide, deep = (round(random.uniform(3.4, 4.4), 2) for _ in range(2))
-        bottom, top = (high, high + deep) if above else (low - deep, low)
-        box = (x, round(bottom, 2), round(x + wide, 2), round(top, 2))
-        name, middle = f"room_{index}", round(x + wide / 2, 2)
-        rooms[name] = _room(f"room {index}", box, (middle, round((box[1] + box[3]) / 2, 2), 0))
-        at = [middle, high if above else low]
-        doors.append({"between": ["hallway", name], "at": at, "width_m": 1.0})
-        corner = box[3] - 0.8 if above else box[1] + 0.2
-        table = (box[0] + 0.2, corner, box[0] + 0.9, corner + 0.6)
-        furniture[f"table_{index}"] = {"box": [round(c, 2) for c in table], "height_m": 0.8}
-        ends[above] = round(x + wide, 2)
-    long = min(ends)
-    rooms["hallway"] = _room("hallway", (0.0, low, long, high), (long / 2, (low + high) / 2, 0))
-    return _write(parent, _home(f"wing_{count}", rooms, doors, furniture, (1.2, 5.2, 0)))
-
-
 def _row(random: Random, seed: int) -> dict[str, object]:
     rooms: dict[str, object] = {}
     doors: list[dict[str, object]] = []
