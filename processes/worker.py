@@ -100,6 +100,8 @@ class SupervisedWorker:
         self._first_word_s = first_word_s
         self._wanted = asyncio.Event()
         self._rest, self._users = Rest(rests_after_s, self._end_unused), 0
+        self._is_ended = False
+        """Its end, which comes, is no death: nobody needed it."""
 
     @property
     def pid(self) -> int | None:
@@ -227,6 +229,7 @@ class SupervisedWorker:
 
     def _end_unused(self) -> None:
         self._wanted.clear()
+        self._is_ended = self._process is not None
         self._kill()
 
     def _kill(self) -> None:
@@ -246,14 +249,15 @@ class SupervisedWorker:
                 self._refused = failure
                 self._ready.set()
             except STREAM_ERRORS as error:
-                if self._wanted.is_set():
+                if not self._is_ended:
                     log.warning(
                         "%s is started again in %g s; its stream ended: %r",
                         *(self._command[0], self._backoff.next_s, error),
                     )
             finally:
                 await self._end_process()
-            if self._refused is None and self._wanted.is_set():
+            was_ended, self._is_ended = self._is_ended, False
+            if self._refused is None and not was_ended:
                 await asyncio.sleep(self._backoff.pause_after())
 
     async def _listen(self, process: Process) -> None:
