@@ -8,7 +8,7 @@ export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
 memory=$(mktemp -d)
 trap 'rm -rf "$memory"' EXIT
 set -- -o cache_dir="$memory" -m "not e2e and not home" "$@"
-.venv/bin/python -m scripts.stolen .venv/bin/python -m pytest -n 3 --dist worksteal --durations 40 "$@"
+.venv/bin/python -m scripts.stolen .venv/bin/python -m pytest -n 4 --dist worksteal --durations 40 "$@"
 code=$?
 [ "$code" = 75 ] || exit "$code"
 echo "units: some failed in time that was not ours; each of those is run again, alone."

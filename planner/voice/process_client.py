@@ -65,6 +65,7 @@ class VoiceWorker:
         self._number = 0
         self._streams = itertools.count(1)
         self._warming: asyncio.Task[None] | None = None
+        self._reaping: asyncio.Task[None] | None = None
         self._rest = Rest(inf if self._model else rests_after_s, self._end_unused)
         self._at_work: set[asyncio.Task[Recognition]] = set()
         self.left_out: tuple[str, ...] = ()
@@ -237,7 +238,9 @@ class VoiceWorker:
     async def _bury(self) -> None:
         process, self._process = self._process, None
         if process is not None:
-            await asyncio.shield(reap(process))
+            self._reaping = asyncio.create_task(reap(process))
+        if self._reaping is not None:  # or of one that was cancelled as it buried
+            await asyncio.shield(self._reaping)
 
 
 class WorkerListener:

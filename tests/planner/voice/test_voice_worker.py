@@ -96,6 +96,18 @@ async def test_where_nobody_speaks_no_process_runs_and_it_is_back_before_the_fir
         assert (await ears.hear(SECOND)).understood
 
 
+async def test_closed_as_it_ends_unused_it_leaves_no_process() -> None:
+    async with running(*stub(TELL), rests_after_s=0.0) as ears:
+        ears.warm()
+        await until(lambda: ears.pid is not None)
+        pid = ears.pid
+        while ears.pid is not None:  # noqa: ASYNC110  # and not a moment later: it is being ended
+            await asyncio.sleep(0)
+    assert pid is not None
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
 async def test_recordings_come_whole_and_one_after_the_other() -> None:
     async with running(*stub(TELL)) as ears:
         sounds = [Sound(16_000, 1, bytes(2 * n)) for n in (1_600, 240_000, 3)]
