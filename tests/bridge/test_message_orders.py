@@ -116,7 +116,7 @@ def test_the_order_of_arrival_between_kinds_changes_nothing(start: str, count: i
     said = messages(world)
     door = Door(world)
     sets = list(combinations(said, count))
-    for chosen in sets[:: {2: 1, 3: 3, 4: 23}[count]]:
+    for chosen in sets if count < 4 else sets[:: 11 if start == "active" else 23]:
         first, *others = permutations(chosen)
         expected = door.decide(first)
         for order in others:

@@ -462,7 +462,7 @@ def test_room_is_made_of_what_waits_questions_about_orders_first() -> None:
     assert sum(not m.has_ended for m in world.book.missions.values()) == MAX_OPEN
 
 
-@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(st.tuples(st.sampled_from(KINDS), st.sampled_from("abc")), min_size=MAX_OPEN))
 def test_no_number_of_questions_keeps_an_order_out(given_: list[tuple[Any, str]]) -> None:
     world = Rethinking()

@@ -14,7 +14,7 @@ from bridge.core.geometry.kinematics import along_arc
 from bridge.core.geometry.stopping import stop_length_m
 from bridge.core.motion.motion_gates import FENCE_MARGIN_M, INWARD_MPS, fence_scale
 from tests.bridge.core.table import table
-from tests.laws import fewer
+from tests.laws import at_least
 from wire import Pose2, RobotDescription, Twist2
 
 ROBOT = RobotDescription()
@@ -161,7 +161,7 @@ def test_a_way_without_an_end_is_none(late_s: float) -> None:
 boxes = st.builds(box, *[st.floats(-3, 3)] * 2, *[st.floats(0.01, 0.6)] * 2)
 
 
-@fewer(2)
+@at_least(60)
 @given(
     st.lists(boxes, min_size=1, max_size=4),
     st.floats(-pi, pi),

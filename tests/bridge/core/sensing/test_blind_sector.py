@@ -13,7 +13,6 @@ from bridge.core.geometry.lidar_scan import ScanPicture
 from bridge.core.sensing.blind_sector import COARSE_RAD, coarse_words, runs, watch_sectors
 from bridge.core.state_senses import SectorMemory
 from tests.bridge.core.scripted import World
-from tests.laws import fewer
 from wire import Pose2, Scan
 from wire.lidar_config import LidarConfig
 
@@ -119,8 +118,8 @@ def test_a_hole_of_any_width_in_any_lidar_is_found_when_it_comes(
     assert room.scan(1).ahead_rad == 0.0, "what returns is alive"
 
 
-@pytest.mark.parametrize("cuts", [2, 3, 8])
-@pytest.mark.parametrize("beams", [180, 360, 667, 1440])
+@pytest.mark.parametrize("cuts", [2, 3, 5, 8])
+@pytest.mark.parametrize("beams", PRESET_BEAMS)
 @pytest.mark.parametrize("middle_rad", [0.1, pi])
 def test_a_hole_is_found_where_each_scan_begins_at_another_beam(
     middle_rad: float, beams: int, cuts: int
@@ -244,7 +243,6 @@ def test_no_way_past_anything_black_shows_a_hole(
         assert room.scan().dead == 0
 
 
-@fewer(2)
 @given(
     _BEAMS, _MOVES, st.integers(15, 120), st.floats(-pi, pi),
     st.tuples(st.floats(-0.05, 0.05), st.floats(-0.12, 0.12)),
@@ -267,7 +265,6 @@ def test_a_hole_that_comes_in_any_motion_is_dead_in_three_scans(
     assert room.memory.dead == held, "it stays until something returns"
 
 
-@fewer(4)
 @given(
     st.sampled_from((180, 360)), st.integers(15, 120), st.floats(-pi, pi),
     st.sampled_from([2.0, 30.0]), st.sampled_from([-1, 1]), st.integers(4, 6),

@@ -107,7 +107,7 @@ def test_jumps_that_take_no_grant_disarm_nobody() -> None:
     assert not raised(world, "POSE_JUMP.1")
 
 
-@settings(max_examples=2)
+@settings(max_examples=10)
 @given(st.integers(0, 2**32))
 @example(2)
 def test_the_noise_of_an_honest_localizer_is_no_drift(seed: int) -> None:

@@ -147,7 +147,7 @@ def assert_never_there(text: str, place: str, runnable: frozenset[str]) -> None:
     st.sampled_from([EVERY_KIND, RUNNABLE]),
     st.sampled_from([str.lower, str.upper, str.capitalize]),
 )
-@at_least(150)
+@at_least(400)
 def test_what_is_denied_in_english_is_neither_driven_to_nor_offered(
     denied: str, place: str, before: str, after: str, runnable: frozenset[str], case: object
 ) -> None:
@@ -164,7 +164,7 @@ def test_what_is_denied_in_english_is_neither_driven_to_nor_offered(
     st.sampled_from([EVERY_KIND, RUNNABLE]),
     st.booleans(),
 )
-@at_least(150)
+@at_least(400)
 def test_what_is_denied_in_chinese_is_neither_driven_to_nor_offered(
     denied: str, place: str, before: str, after: str, runnable: frozenset[str], old: bool
 ) -> None:
@@ -214,7 +214,7 @@ WHAT_IT_CAN = [
     st.sampled_from(["{}", "please {}", "go to the kitchen, then {}", "{} and come back"]),
     st.sampled_from(["{}", "请{}", "去厨房，然后{}"]),
 )
-@at_least(120)
+@at_least(300)
 def test_no_means_is_not_told_of_what_wheels_and_a_voice_can_do(
     order: str, side: tuple[str, str], english: str, chinese: str
 ) -> None:
