@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import logging
 from itertools import pairwise
-from math import dist
+from math import cos, dist, sin
 from typing import TYPE_CHECKING, Protocol
 
 from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
@@ -70,7 +70,6 @@ class ScanSender:
         self._ahead, self._clock = ahead, clock
         self._poses = Poses(map_id)
         self._radius_m = robot.base.radius_m
-        self._newest = self._before = (0.0, 0.0, float("-inf"))
         self._lidar_in_base = Pose2(lidar.x_m, lidar.y_m, lidar.yaw_rad)
         self.shown: Scan | None = None
         """The newest scan that was shown."""
@@ -93,8 +92,6 @@ class ScanSender:
         if stance is None:
             return None
         self.shown, self._shown_s, self._busy = scan, now_s, True
-        here = stance.base_in_map
-        self._before, self._newest = self._newest, (here.x_m, here.y_m, _middle_s(scan))
         self._way = self._ahead()
         return ScanObservation(
             base_in_map=stance.base_in_map,
@@ -136,17 +133,13 @@ class ScanSender:
         met = find_oncoming(way.points, self.report.movers)
         if met is not None:
             who = met.who
-            seen_m, at = (who.x_m, who.y_m), (met.at_m, met.far_m)
-            tell(Oncoming(way.mission, way.leg, *at, seen_m, who.radius_m))
-        here = (seen.base_in_map.x_m, seen.base_in_map.y_m)
-        if is_closing_in(here, self._velocity(), self._radius_m, self.report.movers):
+            seen_m = (who.x_m, who.y_m)
+            tell(Oncoming(way.mission, way.leg, met.at_m, met.far_m, seen_m, who.radius_m))
+        here, v_mps = seen.base_in_map, self._poses.speed_mps
+        velocity_mps = (v_mps * cos(here.yaw_rad), v_mps * sin(here.yaw_rad))
+        at = (here.x_m, here.y_m)
+        if is_closing_in(at, velocity_mps, self._radius_m, self.report.movers):
             tell(ClosingIn(way.mission, way.leg))
-
-    def _velocity(self) -> Point:
-        """Return the robot's velocity in ``map`` between the two newest scans [m/s]."""
-        (x_m, y_m, at_s), (ox_m, oy_m, before_s) = self._newest, self._before
-        gone_s = at_s - before_s
-        return ((x_m - ox_m) / gone_s, (y_m - oy_m) / gone_s) if gone_s > 0.0 else (0.0, 0.0)
 
 
 def _point_along(way: tuple[Point, ...], far_m: float) -> Point:

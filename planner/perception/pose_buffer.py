@@ -85,6 +85,11 @@ class Poses:
         twist = self._moved[-1].twist
         return abs(twist.v_mps) > MOVING_MPS or abs(twist.w_radps) > MOVING_RADPS
 
+    @property
+    def speed_mps(self) -> float:
+        """Return how fast the robot drove ahead when odometry spoke last; unheard, it stands."""
+        return self._moved[-1].twist.v_mps if self._moved else 0.0
+
     def at(self, stamp_s: float) -> Stance | None:
         """Return where the robot was; None where odometry or localization do not tell."""
         moved, placed = self._moved_at(stamp_s), self._placed_at(stamp_s)
