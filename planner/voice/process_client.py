@@ -8,7 +8,6 @@ bounded time.
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import itertools
 import logging
 from asyncio.subprocess import Process
@@ -65,6 +64,7 @@ class VoiceWorker:
         self._number = 0
         self._streams = itertools.count(1)
         self._warming: asyncio.Task[None] | None = None
+        self._ending: asyncio.Task[None] | None = None
         self._reaping: asyncio.Task[None] | None = None
         self._rest = Rest(inf if self._model else rests_after_s, self._end_unused)
         self._at_work: set[asyncio.Task[Recognition]] = set()
@@ -79,11 +79,11 @@ class VoiceWorker:
 
     def warm(self) -> None:
         """Have the process started, where none runs: somebody may speak soon."""
-        work = self._warm_after(self._warming)
-        self._warming = asyncio.create_task(work, name="voice worker")
+        if self._warming is None or self._warming.done():
+            self._warming = asyncio.create_task(self._warm(), name="voice worker")
 
     def _end_unused(self) -> None:
-        self._warming = asyncio.create_task(self._bury_in_turn(), name="voice worker")
+        self._ending = asyncio.create_task(self._bury_in_turn(), name="voice worker")
 
     async def _bury_in_turn(self) -> None:
         async with self._turn:
@@ -100,13 +100,8 @@ class VoiceWorker:
         if heard == self._heard:
             return
         self._heard = heard
-        if self._process is not None or not (self._warming is None or self._warming.done()):
+        if self._process is not None:
             self.warm()
-
-    async def _warm_after(self, before: asyncio.Task[None] | None) -> None:
-        if before is not None:
-            await asyncio.gather(before, return_exceptions=True)
-        await self._warm()
 
     async def hear(self, sound: Sound, *, awaits_answer: bool = False) -> Recognition:
         """Return the recognition; ``awaits_answer``: a question waits for a yes or no.
@@ -155,19 +150,18 @@ class VoiceWorker:
     async def close(self) -> None:
         """End the process and wait until it is gone. Safe to call twice."""
         self._rest.cancel()
-        if self._warming is not None:
-            self._warming.cancel()
-            with contextlib.suppress(asyncio.CancelledError):
-                await self._warming
-        for work in tuple(self._at_work):
+        works = [*self._at_work, *(each for each in (self._warming, self._ending) if each)]
+        for work in works:
             work.cancel()
-        await asyncio.gather(*self._at_work, return_exceptions=True)
+        await asyncio.gather(*works, return_exceptions=True)
         await self._bury()
 
     async def _warm(self) -> None:
         try:
             async with self._turn:
                 await self._ready()
+                while self._told != self._heard:  # other names came while it started
+                    await self._ready()
         except VoiceFailure as failure:
             heard_by = "the model that is set" if self._model else "the built-in recogniser"
             log.warning("%s hears nothing: %s", heard_by, failure)
