@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from pons.settings import LaunchSettings
 
 _LACKS_PLACE_ALONE = "waiting for: localization"
-_TIMEOUT_S = 1.0
+TIMEOUT_S = 1.0
 
 
 class Readiness(Enum):
@@ -27,7 +27,7 @@ class Readiness(Enum):
 def ask_readiness(settings: LaunchSettings, *, set_up: bool = False) -> Readiness:
     """Return how far the robot is; in set-up, which drives nowhere, any answer will do."""
     try:
-        call(settings, "GET", "/healthz" if set_up else "/readyz", timeout_s=_TIMEOUT_S)
+        call(settings, "GET", "/healthz" if set_up else "/readyz", timeout_s=TIMEOUT_S)
     except PlannerProblem as problem:
         if problem.detail == _LACKS_PLACE_ALONE and _searches(settings):
             return Readiness.SEARCHING
@@ -40,7 +40,7 @@ def ask_readiness(settings: LaunchSettings, *, set_up: bool = False) -> Readines
 def _searches(settings: LaunchSettings) -> bool:
     """Return whether localization itself says so; one that is silent or hangs is not waited for."""
     try:
-        answer = call(settings, "GET", "/v1/localization", timeout_s=_TIMEOUT_S)
+        answer = call(settings, "GET", "/v1/localization", timeout_s=TIMEOUT_S)
     except (PlannerProblem, PlannerDown):
         return False
     said = answer.get("localizer")

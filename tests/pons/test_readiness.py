@@ -17,6 +17,12 @@ from wire import LocalizerStatus
 Said = Literal["searching", "tracking", "coasting", "lost"]
 
 
+@pytest.fixture(autouse=True)
+def patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wait as long as a starved machine needs for the first answer of a server."""
+    monkeypatch.setattr("pons.readiness.TIMEOUT_S", 10.0)
+
+
 class StartingRobot(FakeRobot):
     """Be a robot whose processes answer, but for those that a test names."""
 
