@@ -18,7 +18,7 @@ ARGS ?=
 # some images have it, each process would compile all that it imports anew (empty means: not set).
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup extras dev page firmware wheel run fleet test e2e coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
+.PHONY: help setup extras dev page firmware wheel run fleet test e2e nightly coverage mutants laws seeds enumerate check fmt docs bench bench-long attack train lock audit clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
@@ -61,17 +61,23 @@ STORIES = $(filter-out $(HOME_ROW) $(OWN_ROW) $(PAGE_ROW)/%,\
   $(shell grep -rl --include='test_*.py' 'pytest\.mark\.e2e' tests))
 # ROOM=planner/mission: what lies in that folder of tests; CHANGED=HEAD: what imports a file that differs from it.
 CHOSEN = $(addprefix tests/,$(ROOM)) $(if $(CHANGED),$(shell $(BIN)/python -m scripts.changed $(CHANGED)))
+# What is marked nightly the gate samples; a chosen room, and the night, run it whole.
+GATE = $(if $(WHOLE)$(ROOM)$(CHANGED),,--gate)
 TOLD = $(if $(strip $(CHOSEN)),$(filter $(CHOSEN) $(addsuffix /%,$(CHOSEN)),$(STORIES)),$(STORIES))
 
 test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories (about 6 min on 2 cores); ROOM=planner/mission or CHANGED=HEAD: those alone
-	@$(if $(CHANGED)$(ROOM),$(if $(strip $(CHOSEN)),,echo "no test imports what changed"; exit 0;)) scripts/units.sh $(CHOSEN) $(ARGS)
-	@$(if $(CHANGED)$(ROOM),$(if $(strip $(TOLD)),,exit 0;)) exec scripts/stories.sh -m "e2e and not home" $(TOLD) $(ARGS)
+	@$(if $(CHANGED)$(ROOM),$(if $(strip $(CHOSEN)),,echo "no test imports what changed"; exit 0;)) scripts/units.sh $(GATE) $(CHOSEN) $(ARGS)
+	@$(if $(CHANGED)$(ROOM),$(if $(strip $(TOLD)),,exit 0;)) exec scripts/stories.sh -m "e2e and not home" $(GATE) $(TOLD) $(ARGS)
 
 e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
-	  scripts/stories.sh -n 0 -m "e2e or home" $(HOME_ROW) $(PAGE_BESIDE_HOME) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(OWN_ROW) $(PAGE_BESIDE_OWN) $(ARGS) \
-	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(PAGE_ROW) $(addprefix --ignore=,$(PAGE_BESIDE_HOME) $(PAGE_BESIDE_OWN)) $(ARGS)
+	  scripts/stories.sh -n 0 -m "e2e or home" $(GATE) $(HOME_ROW) $(PAGE_BESIDE_HOME) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(GATE) $(OWN_ROW) $(PAGE_BESIDE_OWN) $(ARGS) \
+	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(GATE) $(PAGE_ROW) $(addprefix --ignore=,$(PAGE_BESIDE_HOME) $(PAGE_BESIDE_OWN)) $(ARGS)
+
+nightly: ## what `make test` and `make e2e` leave out, and all else of both; most of an hour on 2 cores
+	@$(MAKE) test WHOLE=1
+	@$(MAKE) e2e WHOLE=1
 
 # Every line and branch of what guards a motor, on the plain source. The tests left out walk no line
 # that the others don't.

@@ -19,6 +19,9 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.contact import Contacts
+from tests.nightly import Sampled, pytest_addoption
+
+__all__ = ["pytest_addoption"]
 
 ROOT = Path(__file__).resolve().parents[1]
 CHILD_GRACE_S = 5.0
@@ -43,8 +46,9 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci" if os.environ.ge
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Let a contact decide how the run ends."""
+    """Let a contact decide how the run ends, and the gate leave out what a night has time for."""
     config.pluginmanager.register(Contacts())
+    config.pluginmanager.register(Sampled(config))
 
 
 @pytest.hookimpl(wrapper=True)

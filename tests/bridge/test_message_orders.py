@@ -109,6 +109,7 @@ class Door:
         return step(self.world.core, self.world.state, inbox, self.world.now_s)
 
 
+@pytest.mark.nightly(keep=4)
 @pytest.mark.parametrize("start", ["disarmed", "hold_granted", "active", "stopping_by_person"])
 @pytest.mark.parametrize("count", [2, 3, 4])
 def test_the_order_of_arrival_between_kinds_changes_nothing(start: str, count: int) -> None:

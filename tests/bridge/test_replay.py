@@ -18,6 +18,8 @@ from tests.bridge.core.scripted import World
 from tests.bridge.recorded import SCHEMAS, Taken, stream_of, written
 from wire import Mode
 
+pytestmark = pytest.mark.nightly(keep=5)
+
 
 def taken(world: World) -> list[Taken]:
     """Return what a recorder would have been given."""

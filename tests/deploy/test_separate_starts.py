@@ -20,7 +20,7 @@ import pytest
 from pons.robot_processes import free_port
 from tests.deploy.installed import PROCESSES, ROOT, by_compose, by_units, moved
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(120)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(120), pytest.mark.nightly(keep=1)]
 TWO_ROOM = ROOT / "sites" / "two_room"
 READY_S = 60.0
 

@@ -19,7 +19,7 @@ from tests.e2e.robot import Robot
 from tests.e2e.system import Json, Reply
 from tests.planner.voice.speech import wav
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 
 WAV = {"Content-Type": "audio/wav"}
 SECOND = bytes(32_000)

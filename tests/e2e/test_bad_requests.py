@@ -16,7 +16,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import Reply
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=8)]
 
 JSON = {"Content-Type": "application/json"}
 

@@ -12,7 +12,7 @@ import pytest
 
 from tests.e2e.system import ROOT, TWO_ROOM, System
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=3)]
 
 REFUSED = 2
 QUICKLY_S = 20.0

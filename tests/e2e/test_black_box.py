@@ -17,7 +17,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import REFUSED, Robot
 from wire import Mode
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(180)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(180), pytest.mark.nightly(keep=1)]
 WRITER = "bridge.recording"
 
 

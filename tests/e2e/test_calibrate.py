@@ -18,7 +18,7 @@ from tests.e2e.robot import Robot
 from tests.e2e.system import ROOT, TWO_ROOM
 from wire import Mode, RobotDescription, load_robot
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(640)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(640), pytest.mark.nightly]
 
 CALIBRATION_S = 150.0
 TRIES = 3

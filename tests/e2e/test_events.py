@@ -11,7 +11,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from tests.e2e.robot import Robot
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 
 
 def events(socket: ClientConnection, until_kind: str, limit_s: float) -> list[dict[str, Any]]:

@@ -12,7 +12,7 @@ from tests.e2e.robot import Robot
 from tests.e2e.system import ENDED, TWO_ROOM, Json
 from tests.e2e.test_mapping import keyframes
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(240)]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(240), pytest.mark.nightly]
 
 ORDERS, EXPLORE_S = 2, 110.0
 

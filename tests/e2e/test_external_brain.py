@@ -13,7 +13,7 @@ from tests.e2e.judge import Judge
 from tests.e2e.polling import until
 from tests.e2e.system import ROOT, System
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150), pytest.mark.nightly]
 
 
 @pytest.fixture

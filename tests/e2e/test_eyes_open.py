@@ -11,7 +11,7 @@ import pytest
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 CAMERA_CODES = ("camera_silent", "camera_frozen")
 
 

@@ -12,7 +12,7 @@ import pytest
 from tests.e2e.polling import until
 from tests.e2e.system import TWO_ROOM, Json, System
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150), pytest.mark.nightly]
 
 KEEP_OUT = [[0.4, 3.4], [0.9, 3.4], [0.9, 3.9], [0.4, 3.9]]
 

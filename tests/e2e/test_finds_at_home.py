@@ -13,7 +13,7 @@ from tests.e2e.robot import Robot, resting_in
 from tests.e2e.system import ENDED, HOME_SITE, Json
 from tools.lockstep.homes import site_of
 
-pytestmark = [pytest.mark.e2e, pytest.mark.home, pytest.mark.timeout(400)]
+pytestmark = [pytest.mark.e2e, pytest.mark.home, pytest.mark.timeout(400), pytest.mark.nightly]
 
 CUP_M = 0.35
 """What is told lies no farther from the true thing: the goal of `bench object_position` at 95 %."""

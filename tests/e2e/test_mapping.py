@@ -11,7 +11,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import ENDED, Json
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(240)]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(240), pytest.mark.nightly]
 
 STICK_PERIOD_S = 0.04
 SEEN_ALL_ROUND = 6

@@ -22,7 +22,7 @@ from tests.pons.mock_llm.bad_replies import HOSTILE_COUNT
 from tests.pons.mock_llm.faults import BadSwitches
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=3)]
 
 TIMEOUT_S = 2.0
 SETTINGS = f"""

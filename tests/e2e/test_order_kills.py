@@ -10,7 +10,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import Json
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.nightly(keep=1)]
 
 AHEAD_S = 1.5
 OFFSETS_S = (-0.05, 0.06)

@@ -13,7 +13,7 @@ from wire import Image, Mode, keys
 from wire.keys import Party
 from wire.session import open_session
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=2)]
 
 DEAD_MAN_PATH_M = 0.35
 """0.5 m/s for the 0.2 s of the drive's time-out, a period, the motors' lag and its ramp."""

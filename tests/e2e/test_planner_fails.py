@@ -10,7 +10,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from wire import Mode, Status
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 
 
 def owner_of(status: Status) -> str:

@@ -10,7 +10,7 @@ import pytest
 from tests.e2e.polling import until
 from tests.e2e.system import ROOT, Json, System
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150), pytest.mark.nightly]
 
 BEFORE, AFTER = "max_speed_mps = 0.5", "max_speed_mps = 0.4"
 

@@ -11,7 +11,7 @@ import pytest
 from tests.e2e.robot import Robot
 from tests.e2e.system import ROOT
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(150), pytest.mark.nightly]
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 
 def test_a_saved_skill_is_driven_by_its_words_and_a_broken_one_moves_nothing(robot: Robot) -> None:

@@ -16,7 +16,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import STOP_LIMIT_S, Robot
 from tests.pons.mqtt.broker import PASSWORD, USER, Broker
 
-pytestmark = [pytest.mark.e2e]
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 QUIET_S = 4.0
 """Longer than a burst's orders wait, and than the gateway is deaf after it."""

@@ -10,7 +10,7 @@ import pytest
 from tests.e2e.robot import Robot
 from tests.planner.voice.speech import needs_espeak, speak
 
-pytestmark = [pytest.mark.e2e, needs_espeak]
+pytestmark = [pytest.mark.e2e, needs_espeak, pytest.mark.nightly(keep=1)]
 
 
 def test_a_recording_becomes_a_drive(robot: Robot, tmp_path: Path) -> None:

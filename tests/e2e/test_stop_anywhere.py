@@ -20,7 +20,7 @@ from tests.e2e.system import ROOT
 from wire import Mode
 from wire.keys import OPS, STOP
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.nightly(keep=4)]
 
 STRANGER = 61_001
 FLOOD_S = 0.0002

@@ -12,7 +12,7 @@ from tests.e2e.robot import FAR_M, Robot
 from wire import Mode, Status, Stop
 from wire.keys import STOP
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.nightly(keep=5)]
 
 
 def by_api(robot: Robot) -> None:

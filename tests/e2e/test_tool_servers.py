@@ -18,7 +18,7 @@ from tests.e2e.robot import Robot
 from tests.e2e.system import ENDED, new_home
 from tests.planner.tool_servers.servers import calendar_server
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 SETTINGS = """
 [model]

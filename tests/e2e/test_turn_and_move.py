@@ -10,7 +10,7 @@ import pytest
 from tests.e2e.robot import SETTLE_S, Robot
 from tests.e2e.system import ENDED, Json
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 OFF_RAD, OFF_M = 0.15, 0.12
 """Reached is 0.10 m and 0.10 rad by the robot's own pose, and that pose is noisy."""

@@ -18,7 +18,7 @@ from wire.keys import GRANT, HEARTBEAT, HELLO, WAYPOINTS, Party
 from wire.session import open_session
 from wire.sockets import Endpoints
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 
 ROGUE = "rogue-planner"
 

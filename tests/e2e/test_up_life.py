@@ -12,7 +12,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import CHILDREN, System
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(120)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(120), pytest.mark.nightly(keep=1)]
 
 
 def test_a_killed_up_takes_all_along_and_the_next_one_goes_on_when_asked(home: Path) -> None:

@@ -21,7 +21,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.e2e.system import HOME_SITE, ROOT, System, new_home
 
-pytestmark = [pytest.mark.home, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.home, pytest.mark.timeout(300), pytest.mark.nightly(keep=2)]
 
 PACKAGES = {"bridge", "localization", "planner", "pons", "pons_assets", "sim", "wire"}
 """What a wheel must hold; a new room of the product may come, a folder of the workshop may not."""

@@ -13,7 +13,7 @@ from tests.fleet.conftest import RunningFleet, StubRobot, fleet_on_file
 from tests.fleet.judge import CLEAN, judge
 from tests.fleet.postgres import running_cluster
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600), pytest.mark.nightly]
 
 
 def run_on(

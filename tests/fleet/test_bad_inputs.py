@@ -19,7 +19,12 @@ from tests.fleet.judge import CLEAN, judge
 
 MakeRobot = Callable[[str], StubRobot]
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+pytestmark = [
+    pytest.mark.e2e,
+    pytest.mark.long,
+    pytest.mark.timeout(600),
+    pytest.mark.nightly(keep=3),
+]
 
 OTHER_MAP = "ffeeddccbbaa9988"
 

@@ -24,7 +24,12 @@ from tests.fleet.postgres import Cluster, running_cluster
 from tests.fleet.test_store import R1, give
 from tests.known import known
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+pytestmark = [
+    pytest.mark.e2e,
+    pytest.mark.long,
+    pytest.mark.timeout(600),
+    pytest.mark.nightly(keep=1),
+]
 
 Pair = tuple[RunningFleet, RunningFleet]
 

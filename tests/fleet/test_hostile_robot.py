@@ -12,7 +12,7 @@ from tests.fleet.conftest import RunningFleet, StubRobot
 from tests.fleet.judge import CLEAN, judge
 from tests.known import known
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600), pytest.mark.nightly]
 EVIL = ("html", "endless", "slow", "never", "cursor", "pages", "goals", "status", "another")
 GROWS_MB = 60.0
 

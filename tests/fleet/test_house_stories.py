@@ -14,7 +14,12 @@ from tests.fleet.judge import judge
 
 MakeRobot = Callable[[str], StubRobot]
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+pytestmark = [
+    pytest.mark.e2e,
+    pytest.mark.long,
+    pytest.mark.timeout(600),
+    pytest.mark.nightly(keep=1),
+]
 
 
 @pytest.fixture

@@ -12,7 +12,12 @@ from tests.fleet.judge import CLEAN, judge
 
 MakeRobot = Callable[[str], StubRobot]
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(600)]
+pytestmark = [
+    pytest.mark.e2e,
+    pytest.mark.long,
+    pytest.mark.timeout(600),
+    pytest.mark.nightly(keep=3),
+]
 
 
 def test_the_nearest_goes_or_each_and_a_repeated_key_makes_nothing_new(

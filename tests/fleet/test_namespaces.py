@@ -25,6 +25,7 @@ pytestmark = [
     pytest.mark.skipif(
         os.geteuid() != 0 or shutil.which("ip") is None, reason="namespaces need root and ip"
     ),
+    pytest.mark.nightly,
 ]
 PORT, NET = 8420, 100 + os.getpid() % 100
 

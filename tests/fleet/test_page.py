@@ -17,7 +17,12 @@ from scripts.browser import CHROMIUM, chromium
 from tests.fleet.conftest import ROOT, RunningFleet, StubRobot, until
 from tests.known import known
 
-pytestmark = [pytest.mark.e2e, pytest.mark.long, pytest.mark.timeout(300)]
+pytestmark = [
+    pytest.mark.e2e,
+    pytest.mark.long,
+    pytest.mark.timeout(300),
+    pytest.mark.nightly(keep=1),
+]
 
 OPERATOR, VIEWER = "operator-token-of-the-house", "viewer-token-of-the-house"
 DESK, PHONE = (1440, 900), (390, 844)

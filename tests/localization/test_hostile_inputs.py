@@ -33,6 +33,9 @@ from tests.localization.test_localizer import Drive, Ranges, fork, settle
 from wire import IDENTITY, Pose2, Scan
 from wire.lidar_config import LidarConfig
 
+pytestmark = pytest.mark.nightly(keep=15)
+
+
 WRONG_M = 0.25
 SECONDS = 1.5
 OTHER_FLOOR: Boxes = (

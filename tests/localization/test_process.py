@@ -19,7 +19,7 @@ from wire.keys import Party
 from wire.session import open_session
 from wire.site_map import read_map_id
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 LIMIT_S = 20.0
 
 

@@ -64,6 +64,7 @@ def ask_until_answered(client: SearchClient, points_m: np.ndarray, first: int) -
     raise AssertionError("no answer")
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_it_says_why_it_finds_nothing_until_it_finds_again(
     client: SearchClient, repository: Path

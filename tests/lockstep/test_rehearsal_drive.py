@@ -16,6 +16,9 @@ from tests.lockstep.requests import cells_of, drive, request_of
 from tests.planner.api.fakes import two_room
 from wire import MarksFile, load_robot
 
+pytestmark = pytest.mark.nightly(keep=5)
+
+
 DOOR = (1.05, 2.85, 2.0, 3.0)
 """Where the wall between the two rooms is open."""
 

@@ -15,6 +15,9 @@ from opentelemetry.sdk.trace.export.in_memory_span_exporter import InMemorySpanE
 
 from planner.traces import MOST_GOALS, MOST_SPANS, VARIABLE, GoalTraces, export_to, traces_of
 
+pytestmark = pytest.mark.nightly(keep=2)
+
+
 SECOND = 1_000_000_000
 
 

@@ -15,6 +15,9 @@ from pons.terminal_text import how_to_answer
 from tests.planner.api.serving import served as real_planner
 from tests.pons.served_goals import Planner, goal
 
+pytestmark = pytest.mark.nightly(keep=12)
+
+
 ASKED = {"message": {"en": "Shall I?", "zh": "要吗？"}}
 
 

@@ -16,6 +16,9 @@ from pons.settings import CHECKOUT, LaunchSettings
 from pons.supervisor import REFUSED_TO_START
 from wire import RobotDescription
 
+pytestmark = pytest.mark.nightly(keep=14)
+
+
 ROBOT = ["sim", "localization", "bridge", "planner"]
 
 

@@ -89,6 +89,7 @@ def test_without_a_simulator_it_says_so(
     assert capsys.readouterr().err.split(":")[0] == "no_simulator"
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_faults_stand_until_mended_and_ctrl_c_mends_them(
     repository: Path, tmp_path: Path, sim: subprocess.Popen[bytes]

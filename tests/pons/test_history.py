@@ -25,6 +25,9 @@ from tests.planner.api.fakes import FakeServices
 from tests.planner.api.serving import served
 from tests.planner.mission.test_goal_history import mission
 
+pytestmark = pytest.mark.nightly(keep=4)
+
+
 TOLD: dict[str, Any] = {
     "goal": {"id": "g1", "text": "</script><b>x", "state": "succeeded", "language": "en"},
     "story": {"source": "api", "questions": [], "replies": [], "changes": [], "metres": 0.0},

@@ -21,6 +21,9 @@ from tests.pons.drives import Drive, taught
 from wire.fence import fence_text
 from wire.site_map import read_map_id
 
+pytestmark = pytest.mark.nightly(keep=4)
+
+
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
 CRATE_M = (1.0, 2.0)
 

@@ -16,6 +16,8 @@ from pons.settings import LaunchSettings, load
 from tests.known import known
 from tests.planner.api.serving import Served, served
 
+pytestmark = pytest.mark.nightly(keep=5)
+
 
 @pytest.fixture
 def planner() -> Iterator[tuple[Served, LaunchSettings]]:

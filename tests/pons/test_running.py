@@ -21,6 +21,9 @@ from pons.stop import CONFIRMED
 from tests.pons.lying_planner import lying_planner
 from tests.pons.standing_bridge import StandingBridge
 
+pytestmark = pytest.mark.nightly(keep=7)
+
+
 ROOT = Path(__file__).resolve().parents[2]
 STRANGER = 61_001
 ROOT_ONLY = pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")

@@ -26,6 +26,9 @@ from tests.pons.standing_bridge import StandingBridge
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
+pytestmark = pytest.mark.nightly(keep=12)
+
+
 ROOT = Path(__file__).resolve().parents[2]
 STRANGER, IMPOSTOR = 61_001, 61_002
 STANDS_STILL = ("stop", "estop", "disarm")

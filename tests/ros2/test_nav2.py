@@ -41,6 +41,7 @@ def process(tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     started.wait(LIMIT_S)
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_it_owns_is_granted_says_each_twist_and_falls_silent_with_nav2(
     tmp_path: Path, process: subprocess.Popen[bytes]

@@ -180,6 +180,7 @@ def test_with_the_key_of_both_ends_it_is_driven(
     bridge.until(made.moves)
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_the_base_stands_by_its_dead_man_when_the_process_is_killed_in_mid_drive(
     bridge: Bridge, start: Start, robot: Make
@@ -196,6 +197,7 @@ def test_the_base_stands_by_its_dead_man_when_the_process_is_killed_in_mid_drive
     assert made.stands()
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_a_process_that_was_frozen_lets_nothing_old_through(
     bridge: Bridge, start: Start, robot: Make
@@ -213,6 +215,7 @@ def test_a_process_that_was_frozen_lets_nothing_old_through(
     bridge.until(made.moves)
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_goals_go_to_nav2_and_its_word_comes_back(
     bridge: Bridge, start: Start, robot: Make, tmp_path: Path

@@ -67,6 +67,7 @@ pytestmark = [
     pytest.mark.skipif(
         not PYTHON, reason="no Python with rclpy and zenoh: name one in PONS_ROS2_PYTHON"
     ),
+    pytest.mark.nightly(keep=3),
 ]
 
 

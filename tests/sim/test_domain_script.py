@@ -18,6 +18,9 @@ from sim.walkers import PASSES_M, STOPS_M, TOUCHES_M
 from tests.known import known
 from wire import ConfigError, DriveCommand, Pose2
 
+pytestmark = pytest.mark.nightly(keep=12)
+
+
 SITE = Path(__file__).resolve().parents[2] / "sites" / "home"
 TICK_S = 0.01
 ROBOT_M = 0.30

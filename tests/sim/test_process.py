@@ -18,7 +18,7 @@ from wire import DriveCommand, DriveState, Pose2, SimControl, SimTruth, distance
 from wire.keys import Party
 from wire.session import Session, open_session
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 LIMIT_S = 20.0
 
 

@@ -23,7 +23,7 @@ from tests.web.test_looks import TABS, assert_fits, violations
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page, WebSocketRoute
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600), pytest.mark.nightly(keep=2)]
 
 SIZES = ((390, 844), (1024, 768), (1440, 900))
 LOCALES = ("en-US", "zh-CN")

@@ -12,7 +12,7 @@ from tests.e2e.system import Json
 from tests.web.conftest import ORDER, TRIES, OpenPage, arrived, set_off
 from tests.web.person import click_at, give
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=3)]
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from tests.web.test_rest import hide
 if TYPE_CHECKING:
     from playwright.sync_api import Page, Request, Route, WebSocketRoute
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 
 CUP: dict[str, Any] = {
     "id": "cup_1",

@@ -12,7 +12,7 @@ from tests.e2e.robot import Robot
 from tests.web.conftest import TRIES, OpenPage
 from wire import Mode
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=2)]
 
 STANDS_S = 3.0
 MOVING_MPS = 0.05

@@ -19,7 +19,7 @@ from scripts.browser import chromium
 from tests.planner.api.serving import served
 from tests.planner.voice.speech import speak, wav
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 LOUD = 2_000
 PATIENCE_MS = 13_000
 """A page ends a recording after 14 s."""

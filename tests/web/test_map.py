@@ -29,7 +29,7 @@ from tests.web.person import click_at, pixel_of
 from tests.wire.examples import STATUS
 from wire import Answer, Pose2, Twist2
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=2)]
 
 PHONE, DESK = (390, 844), (1440, 900)
 HOLD_MS, FRAMES_MS = 700, 300

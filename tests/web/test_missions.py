@@ -13,7 +13,7 @@ from tests.web.person import give
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 
 PHONE = (390, 844)
 STEPS = 5

@@ -17,7 +17,7 @@ from tests.web.test_stop import by_button, by_escape, by_space
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 
 SHORT = "wait 0.1 seconds"
 

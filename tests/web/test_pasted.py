@@ -10,7 +10,7 @@ import pytest
 from tests.e2e.robot import Robot
 from tests.web.conftest import OpenPage
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 ORDER = "every evening at eight go to the kitchen" + " and look" * 40
 FACT = "the keys are on the sofa, " * 400

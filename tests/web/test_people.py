@@ -8,7 +8,7 @@ from tests.e2e.polling import until
 from tests.e2e.robot import Robot
 from tests.web.conftest import OpenPage, anywhere, set_off
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 
 def test_a_link_makes_a_page_a_persons_until_it_is_taken_back(

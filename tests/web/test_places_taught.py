@@ -8,7 +8,7 @@ from tests.e2e.robot import Robot
 from tests.web.conftest import OpenPage, arrived
 from tests.web.person import click_at, give
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 
 def test_a_place_is_taught_driven_to_and_forgotten(robot: Robot, open_page: OpenPage) -> None:

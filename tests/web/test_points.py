@@ -13,7 +13,7 @@ from tests.e2e.system import ENDED
 from tests.web.conftest import OpenPage, arrived, set_off
 from tests.web.person import click_at, ended
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=2)]
 
 PHONE, DESK = (390, 844), (1440, 900)
 SPOTS = ((1.6, 4.6), (1.5, 1.7))

@@ -13,7 +13,7 @@ from tests.web.test_truth import watch
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 LOOKED_MS = 3000
 MOST_WRITES = 30

@@ -11,7 +11,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.e2e.system import System, new_home
 from tests.planner.tool_servers.servers import calendar_server, free_port
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 SERVERS = """
 [tools.calendar]

@@ -14,7 +14,7 @@ from playwright.sync_api import Browser, expect
 from tests.conftest import ROOT
 from tests.e2e.system import System, new_home
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 KEY = "0123456789abcdef" * 2
 IN_SIGHT = """() => {

@@ -10,7 +10,7 @@ from tests.e2e.robot import Robot
 from tests.web.conftest import OpenPage
 from tests.web.test_looks import PHONE, assert_fits, violations
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 ROUND = """
 en = ["[do|make] the evening round [and end in {where}]"]

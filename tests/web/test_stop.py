@@ -17,7 +17,7 @@ from wire import sign
 if TYPE_CHECKING:
     from playwright.sync_api import Page, Route, WebSocketRoute
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=2)]
 
 
 def by_button(page: Page) -> None:

@@ -11,7 +11,7 @@ from tests.web.conftest import expected
 from tests.web.person import give
 from tests.web.sub_path_proxy import below_a_path
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly]
 
 
 def test_a_page_below_a_path_drives_and_stops_the_robot(robot: Robot, browser: Browser) -> None:

@@ -31,6 +31,7 @@ def robot(browser: Browser) -> Iterator[System]:
             yield system
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_the_shell_speaks_tls_and_nobody_is_heard_in_clear(robot: System) -> None:
     done = robot.pons("stop")
@@ -41,6 +42,7 @@ def test_the_shell_speaks_tls_and_nobody_is_heard_in_clear(robot: System) -> Non
         robot.http("GET", "/healthz")
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_the_page_is_secure_by_the_machines_name_and_may_use_the_microphone(
     browser: Browser, robot: System

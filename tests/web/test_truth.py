@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from wire import SimTruth
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=2)]
 
 NEAR_M = 0.25
 """The stand-in's noise, and the pixel below which the page lets its robot be."""

@@ -15,6 +15,9 @@ from bridge.recording.writer_process import Sizes
 from bridge.replay import replay
 from tests.bridge.recording.test_recorder import CONFIG, Driver, recordings
 
+pytestmark = pytest.mark.nightly(keep=1)
+
+
 SIZES = Sizes(rotate_bytes=1 << 20, cap_bytes=1 << 30)
 
 

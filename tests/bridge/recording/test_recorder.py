@@ -34,6 +34,9 @@ from tests.waiting import until
 from tests.wire.examples import EXAMPLES
 from wire import Scan, Stop
 
+pytestmark = pytest.mark.nightly(keep=6)
+
+
 CONFIG = core_config()
 SOON_S = 0.1
 """For who need not wait until a dead writer is replaced; one test holds how long that takes."""

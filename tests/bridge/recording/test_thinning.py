@@ -20,6 +20,9 @@ from tests.bridge.core.scripted import World
 from tests.bridge.recorded import UNIX_S, stream_of, written
 from tests.bridge.test_replay import taken
 
+pytestmark = pytest.mark.nightly(keep=3)
+
+
 ROOT = Path(__file__).resolve().parents[3]
 SECOND_NS = 1_000_000_000
 MINUTE_TICKS = 500

@@ -23,7 +23,7 @@ from tests.localization.rooms import ROOM, cast, points_of
 from tests.waiting import until
 from wire import Pose2, RobotDescription
 
-pytestmark = pytest.mark.e2e
+pytestmark = [pytest.mark.e2e, pytest.mark.nightly(keep=1)]
 LIDAR = RobotDescription().lidar.model_copy(update={"x_m": 0.0, "y_m": 0.0})
 
 

@@ -13,6 +13,9 @@ from wire import LocalizerStatus, Pose2, RobotDescription, compose, keys
 from wire.keys import Party
 from wire.robot import LocalizationConfig
 
+pytestmark = pytest.mark.nightly
+
+
 BEFORE_S = 8.0
 ALIKE = Pose2(1.5, 5.0, 0.5)
 """In the other room, which looks much like the first from there."""

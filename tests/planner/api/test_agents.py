@@ -38,6 +38,9 @@ from tests.planner.api.test_real_missions import CONFIRMS, ENDED, OPERATOR, VIEW
 from tests.planner.mission import live
 from tests.planner.mission.live import KITCHEN, Together
 
+pytestmark = pytest.mark.nightly(keep=6)
+
+
 SINCE = "2026-01-01T00:00:00+00:00"
 PEOPLE = {
     "c" * 16: Person("claude", "Claude", Role.AGENT, SINCE),

@@ -15,6 +15,9 @@ from planner.api.connections import protocol
 from planner.api.crowd import Bounds
 from tests.planner.api.serving import Served, answer_of, eventually, read_all, request, served
 
+pytestmark = pytest.mark.nightly(keep=12)
+
+
 QUICK = Bounds(request_s=0.4, stalled_s=0.4, linger_s=0.3)
 SMALL = replace(QUICK, request_s=5.0, an_address=8, all=12, burst=30)
 PATIENT = replace(QUICK, request_s=30.0, body_bytes=4_000_000)

@@ -45,6 +45,7 @@ def test_no_route_takes_a_method_that_access_does_not_know() -> None:
     assert taken <= TYPED_METHODS | SAFE_METHODS
 
 
+@pytest.mark.nightly(keep=4)
 @pytest.mark.parametrize(
     ("host", "headers", "content"),
     [

@@ -16,6 +16,8 @@ from planner.site import Site
 from processes.parent_death import WORKER_NICE
 from tests.processes.small_worker import LIMIT_S, code_of, pid_of, story
 
+pytestmark = pytest.mark.nightly(keep=3)
+
 
 def across(site: Site) -> RouteRequest:
     return RouteRequest(site.places[0].pose, site.places[1].pose)

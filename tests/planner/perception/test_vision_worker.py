@@ -22,6 +22,9 @@ from tests.processes.small_worker import LIMIT_S, code_of, pid_of, story
 from wire import Image, ImageHeader
 from wire.image_header import read_header
 
+pytestmark = pytest.mark.nightly(keep=3)
+
+
 SIZE = (64, 48)
 
 

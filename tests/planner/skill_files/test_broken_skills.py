@@ -19,6 +19,9 @@ from planner.skill_files.problems import SkillProblem
 from planner.skill_files.skill_file import read_skill
 from tests.planner.skill_files.broken import FILES, ROUTINE, RUNS, function
 
+pytestmark = pytest.mark.nightly(keep=25)
+
+
 NAMES = vocabulary_of(Site.load(Path("sites/home")))
 
 

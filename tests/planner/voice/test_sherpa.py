@@ -23,6 +23,9 @@ from tests.planner.api.fakes import two_room
 from tests.planner.voice.toy_transducer import FAINT, LOUD, MIDDLING, write_model
 from wire import ConfigError
 
+pytestmark = pytest.mark.nightly(keep=5)
+
+
 needs_sherpa = pytest.mark.skipif(
     importlib.util.find_spec("sherpa_onnx") is None, reason="sherpa-onnx is not installed"
 )

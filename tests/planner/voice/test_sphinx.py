@@ -19,6 +19,9 @@ pytest.importorskip("pocketsphinx", reason="pocketsphinx has no wheel for this P
 if TYPE_CHECKING:
     from planner.voice.sphinx import Sphinx
 
+pytestmark = pytest.mark.nightly(keep=20)
+
+
 NAMES = ("kitchen", "living room", "sofa", "charging dock", "study", "zzyzxq", "hall 9")
 
 

@@ -14,6 +14,9 @@ from planner.voice import Recognition, Sound, VoiceFailure, VoiceWorker, process
 from processes import worker_protocol
 from tests.processes.small_worker import until
 
+pytestmark = pytest.mark.nightly(keep=7)
+
+
 SECOND = Sound(16_000, 1, bytes(32_000))
 ECHO = """
 import sys

@@ -20,6 +20,9 @@ from tests.pons.calibrate.metal import FACING, TRUE, Bench, gone_through
 from tools.lockstep import LockstepWorld
 from wire import Mode, Pose2, SimFault, distance
 
+pytestmark = pytest.mark.nightly(keep=4)
+
+
 TIGHT = Pose2(0.38, 1.8, 1.5708)
 """Beside a wall: the disc fits, the margin for turning does not."""
 

@@ -17,6 +17,9 @@ from wire import Odometry, Pose2, RobotDescription, Twist2, load_robot, wrap
 from wire.keys import Party
 from wire.robot import LocalizationConfig
 
+pytestmark = pytest.mark.nightly(keep=3)
+
+
 APART_M = 0.172
 
 

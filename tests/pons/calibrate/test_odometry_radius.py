@@ -19,6 +19,9 @@ from wire.keys import Party
 from wire.robot import LocalizationConfig
 from wire.session import Session
 
+pytestmark = pytest.mark.nightly(keep=1)
+
+
 CORNERED = Pose2(0.5, 2.5, 1.5708)
 TRUE_M = 0.0345
 """Of wheels that robot.toml believes to be 0.033."""

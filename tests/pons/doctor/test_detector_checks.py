@@ -15,6 +15,8 @@ from tests.known import known
 from tests.planner.perception.detect import tiny
 from wire import RobotDescription
 
+pytestmark = pytest.mark.nightly(keep=2)
+
 
 def looked(home: Path, vision: str = "", **camera: Any) -> HealthFinding:
     home.mkdir(exist_ok=True)

@@ -25,6 +25,9 @@ from tests.known import known
 from wire.doors import BRIDGE_DOOR
 from wire.sockets import Endpoints
 
+pytestmark = pytest.mark.nightly(keep=12)
+
+
 TWO_ROOM = CHECKOUT / "sites" / "two_room"
 WORDS = BilingualWords("it is taken", "被占用")
 WELL = HealthFinding("fine", HealthVerdict.OK, WORDS)

@@ -21,6 +21,9 @@ from wire.keys import Party
 from wire.lidar_config import LidarConfig
 from wire.session import open_session
 
+pytestmark = pytest.mark.nightly(keep=4)
+
+
 STATUS = LidarStatus(
     boot_id="lidar-1", seq=1, stamp_s=1.0, model="ld19", code=None, rate_hz=10.0, frames=500,
     spoilt=2, lost_bytes=94, broken_turns=1, opened=1,

@@ -13,6 +13,8 @@ from tests.planner.voice.speech import needs_espeak
 from tests.planner.voice.test_sherpa import needs_sherpa
 from tests.planner.voice.toy_transducer import write_model
 
+pytestmark = pytest.mark.nightly(keep=4)
+
 
 def home(tmp_path: Path, text: str) -> Path:
     (tmp_path / FILE).write_text(text, "utf-8")

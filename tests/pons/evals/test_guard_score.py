@@ -14,6 +14,9 @@ from pons.evals.hostile_plans import expected_plan, hostile_plans, is_allowed
 from pons.evals.matchers import read_expectation
 from pons.evals.suites import Case, load
 
+pytestmark = pytest.mark.nightly(keep=5)
+
+
 MOST_SEEN = 0.025
 """The learned reader takes "I need you in the bedroom" for no order: home_en has 3 of 125, more
 than the goal of ``pons eval --guard``, 2 %."""

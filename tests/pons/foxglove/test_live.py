@@ -92,6 +92,7 @@ def test_a_window_is_shown_what_the_bridge_says_without_a_planner() -> None:
     asyncio.run(story())
 
 
+@pytest.mark.nightly
 def test_a_window_that_never_reads_stands_in_nobodys_way() -> None:
     async def story() -> None:
         async with shown() as port, viewer(port), viewer(port) as (socket, topics):

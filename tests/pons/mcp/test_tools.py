@@ -34,6 +34,9 @@ from tests.planner.api.test_real_missions import CONFIRMS, OPERATOR, VIEWER, lat
 from tests.planner.mission import live
 from tests.planner.mission.live import KITCHEN, Together, run
 
+pytestmark = pytest.mark.nightly(keep=5)
+
+
 CLAUDE, MAIL = PEOPLE
 PAGE = ROOT / "docs/mcp.md"
 TOOLS = {

@@ -141,6 +141,7 @@ def test_the_robot_is_described_and_says_that_its_planner_is_away(joined: Joined
     joined.told(story)
 
 
+@pytest.mark.nightly(keep=2)
 @pytest.mark.parametrize(
     ("word", "payload"),
     [("stop", b"PRESS"), ("stop", b"\xff\x00"), ("command", b"stop"), ("sentence", "停".encode())],
@@ -241,6 +242,7 @@ def test_a_stop_goes_before_what_waits_and_finds_room_where_a_flood_leaves_none(
         assert taken == [stop[1], b"go to room 0", b"go to room 1"]
 
 
+@pytest.mark.nightly
 def test_a_broker_that_is_slow_replays_an_hour_of_orders_or_answers_nothing(
     tmp_path: Path,
 ) -> None:

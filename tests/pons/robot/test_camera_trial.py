@@ -152,6 +152,7 @@ def robot_with(url: str) -> RobotDescription:
     return RobotDescription.model_construct(camera=camera, ros2=RobotDescription().ros2)
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_a_network_camera_is_tried_through_its_own_reader() -> None:
     person = Beside()
@@ -162,6 +163,7 @@ def test_a_network_camera_is_tried_through_its_own_reader() -> None:
     assert person.told == [(ASKED[0], "+2°, +88°"), (ASKED[1], ""), (ASKED[2], "")]
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_a_camera_that_is_not_there_is_named_by_its_own_code() -> None:
     with pytest.raises(TrialRefusal) as refusal:

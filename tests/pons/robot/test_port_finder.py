@@ -31,6 +31,9 @@ from tests.pons.robot.twin_ports import (
 from wire.drive_config import DRIVE_KINDS
 from wire.lidar_config import LidarConfig
 
+pytestmark = pytest.mark.nightly(keep=25)
+
+
 LIDARS = {"_".join(filter(None, key)): key for key in LIDAR_TWINS}
 QUESTIONS = sorted({probe.question for probe in PROBES if probe.question})
 TURNING = "rplidar that turns"

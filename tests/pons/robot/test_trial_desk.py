@@ -198,6 +198,7 @@ def test_an_untried_robot_does_not_leave(tmp_path: Path) -> None:
         assert desk.state().code == "trial_missing"
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_a_cable_pulled_in_the_middle_of_a_pages_trial_is_told_and_nothing_is_written(
     tmp_path: Path,

@@ -19,6 +19,9 @@ from tests.sensors.lidar.frames import ld_frame
 from tools.lockstep.serial_line import LineFault
 from wire import DriveState, RobotDescription
 
+pytestmark = pytest.mark.nightly(keep=15)
+
+
 STEPS = ("listen", "hand_left", "hand_right", "power_left", "power_right", "power_back", "silence")
 
 

@@ -15,6 +15,9 @@ from tests.pons.robot.stand import Stand, Wires
 from wire import RobotDescription
 from wire.drive_config import DRIVE_KINDS
 
+pytestmark = pytest.mark.nightly(keep=10)
+
+
 MCU = RobotDescription.model_validate(
     {"drive": {"kind": "pons_mcu", "port": "/dev/x", "ticks_per_turn": 1496, "timeout_s": 0.2}}
 )

@@ -78,6 +78,7 @@ def test_it_shows_a_film_and_leaves_when_asked(
     assert process.wait(LIMIT_S) == 0
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_a_network_camera_comes_and_goes_and_its_password_stays_secret(
     eyes: Eyes, started: Callable[[str], subprocess.Popen[str]]
@@ -109,6 +110,7 @@ node = "{node}"
 """
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_a_camera_of_ros_2_is_shown_comes_late_and_goes(
     eyes: Eyes, started: Callable[[str], subprocess.Popen[str]]

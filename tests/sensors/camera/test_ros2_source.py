@@ -29,6 +29,9 @@ from tests.sensors.camera.test_packed_picture import (
 from wire import CameraConfig
 from wire.ros2_config import Ros2Config
 
+pytestmark = pytest.mark.nightly(keep=6)
+
+
 DEPTH = np.array([[0, 500, 65535]], np.uint16)
 
 

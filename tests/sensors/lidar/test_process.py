@@ -109,6 +109,7 @@ def test_it_reads_a_line_that_comes_and_goes(
     assert process.wait(LIMIT_S) == 0
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_a_wrong_baud_is_told_and_mends(
     tmp_path: Path, ears: Ears, started: Callable[[str], subprocess.Popen[str]]

@@ -22,6 +22,9 @@ from tests.sensors.lidar.ports import MemoryPort
 from wire import ConfigError, Pose2, RobotDescription, Scan, SimFault
 from wire.lidar_config import LIDAR_MODELS, WITHOUT_LINE, LidarConfig
 
+pytestmark = pytest.mark.nightly(keep=6)
+
+
 PRECISE = Hardware(lidar_noise_m=0.0, lidar_dropout=0.0)
 TURNS_S = 3.0
 UNITS_M = {"ld": 0.001, "rp81": 0.000_25, "rp82": 0.001, "rp85": 0.001, "yd_mm": 0.001}

@@ -13,7 +13,10 @@ from tools.attack.files import file_outcome, outcome_of
 from tools.attack.lab import ChildEnd
 from tools.attack.unsound import Unsound
 
-pytestmark = pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning"),
+    pytest.mark.nightly(keep=6),
+]
 """The fork only reads one file and ends; threads of the test's own process are nothing to it."""
 
 

@@ -10,6 +10,8 @@ from tools.attack import fuzz as fuzz_module
 from tools.attack.decoders import BY_NAME, DECODERS, AttackedDecoder, Reader
 from tools.attack.fuzz import fuzz
 
+pytestmark = pytest.mark.nightly(keep=6)
+
 
 class Refusal(Exception):
     def __init__(self, code: str) -> None:

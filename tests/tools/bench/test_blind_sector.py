@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import pytest
+
 from tools.bench.measure.blind_sector import contact_run
+
+pytestmark = pytest.mark.nightly
 
 
 def test_a_hole_in_a_lidar_whose_scans_begin_elsewhere_each_time_is_told() -> None:

@@ -81,6 +81,7 @@ def test_an_unknown_name_is_refused_with_what_exists(capsys: pytest.CaptureFixtu
     assert "core_step" in capsys.readouterr().err
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 def test_ctrl_c_ends_every_process(tmp_path: Path) -> None:
     bench = subprocess.Popen(

@@ -20,6 +20,9 @@ from tools.evals.scripted_model import ScriptedModel
 from tools.evals.scripts import FEWEST, MOST, Script, ScriptSet, read_scripts
 from tools.evals.talks import hold
 
+pytestmark = pytest.mark.nightly(keep=5)
+
+
 SITE = ROOT / "sites" / "home"
 
 

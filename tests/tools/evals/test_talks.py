@@ -16,6 +16,9 @@ from tools.evals.__main__ import main
 from tools.evals.lines import LineVerdict, read_line, read_lines
 from tools.evals.talks import hear_talk
 
+pytestmark = pytest.mark.nightly(keep=2)
+
+
 SITE = ROOT / "sites" / "home"
 STUDY = GoTo(place="study")
 FREE = "tuned\tfree\tgo to the bedroom => go bedroom\t{}\t{}"

@@ -31,6 +31,9 @@ from tools.evals.turns import (
     turn_case,
 )
 
+pytestmark = pytest.mark.nightly(keep=6)
+
+
 SUITES = load_turns(HOME_SITE)
 
 CUP = "go: kitchen ; look: I see 1 cup. ; decide: to the study if a cup, else to the bedroom"

@@ -6,6 +6,8 @@ import pytest
 
 from tools.fleet_trial.doorway import LIMIT_S, drive
 
+pytestmark = pytest.mark.nightly
+
 
 @pytest.mark.slow
 @pytest.mark.timeout(900)

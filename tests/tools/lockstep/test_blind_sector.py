@@ -13,6 +13,9 @@ from tests.known import known
 from tools.lockstep import LockstepWorld
 from wire import Mode, Pose2, SimFault
 
+pytestmark = pytest.mark.nightly(keep=3)
+
+
 DOCK = Pose2(11.2, 4.75, pi)
 """At the end of the default home's hallway, which the way to the kitchen leads along."""
 CRATE_M = (8.6, 4.75)

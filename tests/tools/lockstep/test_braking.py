@@ -15,6 +15,9 @@ from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2, Velocity, keys
 from wire.keys import Party
 
+pytestmark = pytest.mark.nightly(keep=3)
+
+
 WALL_M = 0.05 + 0.30
 """Where the robot's centre is when it touches the kitchen's wall at y = 0."""
 FROM = Pose2(1.5, 2.3, -pi / 2)

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     Message = dict[str, Any]
     Breaker = Callable[["BrokenBrain", str, Message], list[tuple[str, object]]]
 
+pytestmark = pytest.mark.nightly(keep=10)
+
+
 COMMANDS = {"cmd/waypoints", "cmd/external"}
 KEYS = {key.path: key for key in (keys.HELLO, keys.GRANT, keys.HEARTBEAT, keys.WAYPOINTS,
                                   keys.EXTERNAL)}  # fmt: skip

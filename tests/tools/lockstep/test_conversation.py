@@ -12,7 +12,7 @@ from tests.known import known
 from tools.lockstep import LockstepWorld
 from wire import Pose2
 
-pytestmark = pytest.mark.timeout(120)
+pytestmark = [pytest.mark.timeout(120), pytest.mark.nightly(keep=3)]
 START = Pose2(1.0, 4.2, 0.0)
 
 

@@ -16,6 +16,9 @@ from tools.lockstep.serial_line import LineFault
 from wire import load_robot
 from wire.robot import LocalizationConfig, RobotDescription
 
+pytestmark = pytest.mark.nightly(keep=3)
+
+
 __all__ = ["board_build"]
 
 

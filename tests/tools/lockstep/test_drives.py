@@ -19,6 +19,9 @@ from tools.lockstep.world_fork import fork_world
 from wire import Mode, Pose2
 from wire.keys import Party
 
+pytestmark = pytest.mark.nightly(keep=6)
+
+
 LIMIT_S = 90.0
 IN_KITCHEN, BY_THE_DOOR = Pose2(1.5, 1.5, 1.5), Pose2(1.5, 2.0, 1.5)
 """In the kitchen of two_room, so that a drive to the living room takes seconds."""

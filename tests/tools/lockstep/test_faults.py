@@ -7,6 +7,9 @@ import pytest
 from tools.bench.measure.fault_times import trial
 from wire import SimFault
 
+pytestmark = pytest.mark.nightly(keep=10)
+
+
 NOTICED = {
     "drive_deaf": "DRIVER_NACK.0",
     "drive_off": "ENC_STALE.0",

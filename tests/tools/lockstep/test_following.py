@@ -15,6 +15,9 @@ from tools.lockstep import GoalHandle, LockstepWorld
 from tools.lockstep.homes import stock_home
 from wire import Pose2
 
+pytestmark = pytest.mark.nightly(keep=1)
+
+
 BRAKING_M = 0.3
 START = Pose2(1.5, 1.2, pi / 2)
 

@@ -17,6 +17,9 @@ from tools.lockstep.homes import hall, made_home
 from tools.lockstep.hostile import HostilePlanner, TrustingOperator
 from tools.lockstep.judge import Judge
 
+pytestmark = pytest.mark.nightly(keep=5)
+
+
 PENS = (
     ((1.2, 6.2), (2.8, 6.2), (2.8, 7.8), (1.2, 7.8)),
     ((6.0, 6.0), (8.0, 6.0), (8.0, 8.0), (6.0, 8.0)),

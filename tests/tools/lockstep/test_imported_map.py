@@ -14,6 +14,9 @@ from pons_assets import ROBOT_FILE
 from tests.known import known
 from tools.lockstep import LockstepWorld
 
+pytestmark = pytest.mark.nightly
+
+
 SHARED = Path(__file__).resolve().parents[4] / "shared" / "data" / "maps"
 LIMIT_S = 120.0
 

@@ -15,6 +15,9 @@ from tests.tools.lockstep.test_points import point
 from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Answer, Pose2, SlowMark
 
+pytestmark = pytest.mark.nightly(keep=3)
+
+
 IN_KITCHEN = Pose2(1.5, 1.2, 1.5)
 Polygon = tuple[tuple[float, float], ...]
 

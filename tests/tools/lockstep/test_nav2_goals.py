@@ -22,6 +22,9 @@ from wire import Mode, Nav2State, Pose2, Waypoints, decode, distance, encode, ke
 from wire.keys import Party
 from wire.ros2_config import Nav2Config, Ros2Config
 
+pytestmark = pytest.mark.nightly(keep=4)
+
+
 ROS2 = Ros2Config(node="tcp/127.0.0.1:7448", nav2=Nav2Config())
 ROBOT = STAND_IN_ROBOT.model_copy(update={"ros2": ROS2})
 BY_THE_DOOR = Pose2(1.5, 2.0, 1.5)

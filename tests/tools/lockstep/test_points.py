@@ -13,6 +13,9 @@ from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Pose2, wrap
 
+pytestmark = pytest.mark.nightly(keep=4)
+
+
 IN_KITCHEN = Pose2(1.5, 2.0, 1.5)
 REACHED_M, REACHED_DEG = 0.10, 5.0
 

@@ -17,6 +17,9 @@ from planner.rehearsal import Rehearsal, Rehearser
 from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import LockstepWorld
 
+pytestmark = pytest.mark.nightly(keep=2)
+
+
 METRES, SECONDS = 0.05, 0.15
 
 

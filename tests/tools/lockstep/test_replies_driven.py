@@ -8,6 +8,9 @@ from planner.plan import Code, Language, Outcome
 from tests.planner.language.laws.replies import count_sentences, find_foreign, find_inner
 from tools.lockstep import LockstepWorld
 
+pytestmark = pytest.mark.nightly
+
+
 SHORT = 200
 """Characters that may be more than two sentences."""
 ORDERS = (

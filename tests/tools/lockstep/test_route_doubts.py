@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import pytest
+
 from planner.plan import GoalState
 from tests.known import known
 from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld
+
+pytestmark = pytest.mark.nightly(keep=1)
+
 
 LIMIT_S = 90.0
 

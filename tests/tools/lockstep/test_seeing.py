@@ -38,7 +38,7 @@ OBJECTS: dict[str, object] = {
 PEOPLE: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
 TO_THE_DOOR, BY_THE_COUNTER = Pose2(1.5, 4.0, -pi / 2), Pose2(1.5, 1.9, -0.9)
 
-pytestmark = pytest.mark.timeout(180)
+pytestmark = [pytest.mark.timeout(180), pytest.mark.nightly(keep=5)]
 """A search is a minute of simulated time: 6 s of a free core, ten times that on a busy one."""
 
 

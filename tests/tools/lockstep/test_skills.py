@@ -28,6 +28,9 @@ from tests.tools.lockstep.conftest import Ready
 from tools.lockstep import GoalHandle, LockstepWorld
 from wire import Pose2
 
+pytestmark = pytest.mark.nightly(keep=5)
+
+
 IN_KITCHEN = Pose2(1.5, 2.0, 1.5)
 BY_THE_DOCK = Pose2(1.4, 1.0, -2.6)
 

@@ -20,7 +20,7 @@ ANNA: dict[str, object] = {"anna": {"at": [2.4, 4.3]}}
 
 KITCHEN, BY_THE_DOOR = Pose2(1.5, 1.9, 0.0), Pose2(1.5, 4.0, -1.57)
 
-pytestmark = pytest.mark.timeout(120)
+pytestmark = [pytest.mark.timeout(120), pytest.mark.nightly(keep=1)]
 
 
 class Denying:

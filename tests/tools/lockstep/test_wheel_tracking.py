@@ -14,6 +14,9 @@ from sim import Hardware
 from tools.lockstep import TICK_S, LockstepWorld
 from wire import IDENTITY, Mode, Pose2, RobotDescription, compose, inverse
 
+pytestmark = pytest.mark.nightly(keep=2)
+
+
 LIMIT_MMPS, LIMIT_MM = 10.0, 8.0
 """Seen: 5 to 7 mm/s, and 2 to 5 mm per metre of path; without control 20 to 63, and 14 to 440."""
 LIMIT_S = 60.0

@@ -17,6 +17,9 @@ from planner.plan import Language, StepPlan, Vocabulary
 from planner.settings import ModelSettings
 from tests.pons.mock_llm.mocks import RunningMock, running_mock
 
+pytestmark = pytest.mark.nightly(keep=4)
+
+
 SURE = "go to the kitchen"
 UNSURE = "would it be a bother to glance at whatever the stove is up to"
 

@@ -196,6 +196,7 @@ def test_no_pattern_has_two_ways_to_read_its_own_words() -> None:
     assert not bad, bad
 
 
+@pytest.mark.nightly(keep=1)
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("seed", range(4))
 def test_no_repeated_words_hang_at_the_door(seed: int) -> None:

@@ -14,6 +14,9 @@ from planner.site.site_view import vocabulary_of
 from pons_assets import DEFAULT_SITE
 from tests.planner.language.laws.replies import count_sentences, find_foreign, find_inner
 
+pytestmark = pytest.mark.nightly
+
+
 HOME = vocabulary_of(Site.load(DEFAULT_SITE))
 RUNS = RUNNABLE | {"find", "count", "look", "follow", "go_to_object"}
 LISTED = 250

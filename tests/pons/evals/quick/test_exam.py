@@ -53,6 +53,9 @@ from pons.evals.quick.grade import grade
 from tests.pons.mock_llm.mocks import RunningMock
 from wire import ConfigError
 
+pytestmark = pytest.mark.nightly(keep=18)
+
+
 STRICT = (ModeResult("json_schema", taken=True, right=True),)
 
 
