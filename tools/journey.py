@@ -23,7 +23,7 @@ from bridge.core import BridgeState, CoreConfig, Decision, Inbox, step
 from tools.lockstep import LockstepWorld
 
 ROOT = Path(__file__).resolve().parents[1]
-SENTENCE = "go to the kitchen"
+SENTENCE, OTHER = "go to the kitchen", "go to the living room"
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +37,8 @@ class Limit:
     aim: int
 
 
-FILES, FUNCTIONS = Limit(109, 60), Limit(486, 250)
-EXPRESSIONS = Limit(286, 300)
+FILES, FUNCTIONS = Limit(110, 60), Limit(487, 250)
+EXPRESSIONS = Limit(282, 300)
 BRIDGE_FILES = Limit(35, 25)
 LIMIT_S = 20.0
 UNDER_WAY_S = 2.0
@@ -94,14 +94,17 @@ class Tracer:
 def planner_journey(sentence: str = SENTENCE, site: str = "home") -> Tracer:
     """Return what the planner ran from the sentence until the first wheel command.
 
+    A drive by other words goes before it: what a process works out once is no part of the way.
+
     Raises:
         TooLong: no wheel turned within ``LIMIT_S`` simulated seconds.
     """
-    world = LockstepWorld(site=site)
     tracer = Tracer(("planner",))
-    with tracer.tracing():
-        world.say(sentence)
-        world.run_until(turns_a_wheel, LIMIT_S)
+    for said in (OTHER, sentence):
+        world = LockstepWorld(site=site)
+        with tracer.tracing():
+            world.say(said)
+            world.run_until(turns_a_wheel, LIMIT_S)
     return tracer
 
 
