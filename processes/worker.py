@@ -37,6 +37,8 @@ FIRST_PAUSE_S = 0.05
 """Before a process that died is started again; doubled each time until one answers."""
 STREAM_ERRORS = (OSError, EOFError, ValueError, KeyError, TypeError)
 """What reading and understanding another process's frames may raise."""
+WAKES_S = 20.0
+"""More than else may an answer take of a process that rested: on a busy board it starts slowly."""
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """These libraries would start a pool of threads, and the bridge needs the cores."""
 
@@ -102,6 +104,8 @@ class SupervisedWorker:
         self._rest, self._users = Rest(rests_after_s, self._end_unused), 0
         self._is_ended = False
         """Its end, which comes, is no death: nobody needed it."""
+        self._has_rested = False
+        """Since it was ready last."""
 
     @property
     def pid(self) -> int | None:
@@ -146,6 +150,7 @@ class SupervisedWorker:
         number = self._number
         frame = pack({**head, "number": number}, *bodies)
         answer: asyncio.Future[Frame] = asyncio.get_running_loop().create_future()
+        timeout_s += WAKES_S if self._has_rested else 0.0
         try:
             with self._in_use():
                 async with asyncio.timeout(timeout_s), self._turn:
@@ -229,6 +234,7 @@ class SupervisedWorker:
 
     def _end_unused(self) -> None:
         self._wanted.clear()
+        self._has_rested = True
         self._is_ended = self._process is not None
         self._kill()
 
@@ -267,6 +273,7 @@ class SupervisedWorker:
         if "refused" in greeting:
             raise self._codes.to_failure(greeting["refused"], greeting["detail"])
         self._check_greeting(greeting["ready"])
+        self._has_rested = False
         self._ready.set()
         while True:
             told = await read_frame(process)

@@ -1,10 +1,11 @@
 """Decide when the eyes look, take pictures in, newest only, and judge them.
 
 They look at their full rate while a step, a page or a question needs them, now and then else: twice
-a second while the robot moves, for what is passed, and every other second while it stands. After a
-failure of the detector they rest. A picture is fresh, paired with its depth, and not one again. Its
-age is what our own clock has seen pass since it came, or what its stamp says where that is older
-and on our clock; no stamp makes it younger. Knows the wire's pictures; opens none.
+a second while the robot moves, for what is passed, every other second while it stands, and after a
+minute of that every five minutes, so that the detector's process may rest. After a failure of the
+detector they rest. A picture is fresh, paired with its depth, and not one again. Its age is what
+our own clock has seen pass since it came, or what its stamp says where that is older and on our
+clock; no stamp makes it younger. Knows the wire's pictures; opens none.
 """
 
 from __future__ import annotations
@@ -25,8 +26,10 @@ if TYPE_CHECKING:
     from wire.session import Session
 
 POLL_S, IDLE_POLL_S = 0.01, 0.03
-PASSING_HZ, STANDING_HZ = 2.0, 0.5
+PASSING_HZ, STANDING_HZ, RESTING_HZ = 2.0, 0.5, 1 / 300
 """Nobody asks, yet what is passed is remembered, and what comes before a robot that stands."""
+RESTS_AFTER_S = 60.0
+"""Of standing where nobody needs eyes."""
 EARLY_S = 0.02
 """A picture that comes so much before its time is taken: cameras and clocks jitter."""
 SHOWN_S = 3.0
@@ -46,6 +49,7 @@ class Attention:
         self._wide: set[str] = set()
         self._waiting = 0
         self._shown_s = self._began_s = self._rest_until_s = float("-inf")
+        self._awake_s: float | None = None
 
     def attend(self, who: str, wanted: bool, *, wide: bool = False) -> None:
         """Take down that somebody needs eyes now, or no longer; ``wide``: for all kinds."""
@@ -84,7 +88,10 @@ class Attention:
 
     def due(self, now_s: float, *, moving: bool) -> bool:
         """Tell whether it is time for a look."""
-        idle_hz = PASSING_HZ if moving else STANDING_HZ
+        if moving or self._awake_s is None or self._is_needed(now_s):
+            self._awake_s = now_s
+        rests = now_s - self._awake_s > RESTS_AFTER_S
+        idle_hz = PASSING_HZ if moving else RESTING_HZ if rests else STANDING_HZ
         rate_hz = min(self._rate_hz if self._is_needed(now_s) else idle_hz, self._rate_hz)
         return now_s >= self._rest_until_s and now_s - self._began_s >= 1.0 / rate_hz - EARLY_S
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import logging
 from collections import Counter
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -35,6 +36,8 @@ FIRST_WORD_S = 3600.0
 """TensorRT builds its engine at the first start, for minutes; what takes an hour hangs."""
 LOOK_S = 5.0
 LONGEST_PAUSE_S = 10.0
+RESTS_AFTER_S = 30.0
+"""Of no picture. It takes 70 MB, and starts again within a second of a processor."""
 CODES = FailureCodes(
     VisionFailure, down="detector_down", died="detector_down", timed_out="detector_timed_out"
 )
@@ -50,6 +53,8 @@ class VisionWorker(SupervisedWorker):
             one_at_a_time=True,
             first_word_s=FIRST_WORD_S,
             longest_pause_s=LONGEST_PAUSE_S,
+            # An owner's model may take minutes to load, or hold a processor of its own.
+            rests_after_s=RESTS_AFTER_S if settings.model is None else inf,
         )
         self.has_model = settings.model is not None or DEFAULT_MODEL.is_file()
         """The owner names one, or one comes with Pons; if it can be used is found out later."""

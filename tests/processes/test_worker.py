@@ -90,8 +90,8 @@ async def test_unused_it_ends_without_a_word_and_the_next_request_starts_it(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     async with running(rests_after_s=0.05) as kept:
-        for _ in range(2):
-            answered, body = await kept.asked(b"abc")
+        for timeout_s in (60.0, 0.01):  # a process that rested has time to start
+            answered, body = await kept.asked(b"abc", timeout_s=timeout_s)
             assert body == b"cba"
             await until(partial(_is_gone, answered))
     assert not caplog.records

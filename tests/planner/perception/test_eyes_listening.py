@@ -7,7 +7,14 @@ import asyncio
 import pytest
 
 from planner.perception import VisionFailure
-from planner.perception.frame_source import FROZEN_AFTER, PASSING_HZ, SHOWN_S, STANDING_HZ
+from planner.perception.frame_source import (
+    FROZEN_AFTER,
+    PASSING_HZ,
+    RESTING_HZ,
+    RESTS_AFTER_S,
+    SHOWN_S,
+    STANDING_HZ,
+)
 from tests.planner.perception.watching import World
 
 
@@ -30,6 +37,25 @@ async def test_looks_are_rare_until_somebody_needs_them() -> None:
     await world.film(2 * SHOWN_S)  # a page looked, and went
     more = 20 + 10 * SHOWN_S + PASSING_HZ * SHOWN_S
     assert len(world.detector.looks) - before == pytest.approx(more, abs=4)
+
+
+async def test_eyes_of_a_robot_that_stands_rest_until_it_moves_or_somebody_needs_them() -> None:
+    world = World()
+    world.speed_mps = 0.0
+    await world.film(RESTS_AFTER_S + 1 / STANDING_HZ)
+    before = len(world.detector.looks)
+    await world.film(1 / RESTING_HZ + 1)
+    assert len(world.detector.looks) - before == 1
+    world.speed_mps = 0.3
+    await world.film(2.0)
+    world.speed_mps = 0.0
+    await world.film(10.0)
+    assert len(world.detector.looks) - before >= 1 + 2 * PASSING_HZ - 1 + 10 * STANDING_HZ - 1
+    await world.film(RESTS_AFTER_S + 1 / STANDING_HZ)
+    before = len(world.detector.looks)
+    world.eyes.attend("goal", True)
+    await world.film(1.0)
+    assert len(world.detector.looks) - before >= 8
 
 
 async def test_the_camera_may_rest_while_nobody_wants_pictures() -> None:
