@@ -186,6 +186,7 @@ def asked(
         asking.communicate()
 
 
+@pytest.mark.nightly
 @pytest.mark.e2e
 @pytest.mark.timeout(150)
 @pytest.mark.parametrize("version", PYTHONS)

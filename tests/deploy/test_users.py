@@ -36,7 +36,7 @@ pytestmark = [
     pytest.mark.e2e,
     pytest.mark.timeout(180),
     pytest.mark.skipif(os.geteuid() != 0, reason="only root may become the users of a robot"),
-    pytest.mark.nightly(keep=1),
+    pytest.mark.nightly,
 ]
 
 PARTIES = {
