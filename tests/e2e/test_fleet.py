@@ -20,7 +20,7 @@ from tests.e2e.polling import until
 from tests.e2e.system import ROOT, TWO_ROOM, System, new_home
 from tests.fleet.conftest import RunningFleet
 
-pytestmark = [pytest.mark.home, pytest.mark.timeout(600), pytest.mark.nightly(keep=1)]
+pytestmark = [pytest.mark.home, pytest.mark.timeout(600), pytest.mark.nightly]
 
 UP_LIMIT_S = 300.0
 
