@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from devices import PORT_CURES
+from pons.http import PlannerDown, PlannerProblem, call
 from pons.terminal import command_path, pick, speaks_chinese
 from pons_assets import ROOT
 
@@ -110,19 +111,20 @@ def chinese_line(refusal: str) -> str:
     return "" if cure is None else f"\n  {cure}"
 
 
-def drives_to_try(site: Path) -> str:
-    """Return an order for a place that this very site has."""
-    from planner.site import Site, SiteError  # late: `pons status` reads this file too
+def drives_to_try(settings: LaunchSettings) -> str:
+    """Return an order for a room that the planner knows.
 
+    It is asked, for what reads a site stays in memory as long as `pons up` runs.
+    """
     try:
-        rooms = [place for place in Site.load(site).places if place.kind == "room"]
-    except SiteError:
-        rooms = []  # what runs has read it; it was changed since
+        places = call(settings, "GET", "/v1/capabilities")["places"]
+    except (PlannerDown, PlannerProblem):
+        places = []  # it is ready, and tells more to who asks it
     say = f"{command_path()} say"
-    if not rooms:
+    names = [place["name"] for place in places if place["kind"] == "room"]
+    if not names:
         return pick(f'{say} "go home"', f"{say} 回家")
-    name = rooms[0].name
-    return pick(f'{say} "go to the {name.en}"', f"{say} 去{name.zh}")
+    return pick(f'{say} "go to the {names[0]["en"]}"', f"{say} 去{names[0]['zh']}")
 
 
 def what_to_try(settings: LaunchSettings, *, arms: bool = False) -> str:
@@ -138,7 +140,7 @@ def what_to_try(settings: LaunchSettings, *, arms: bool = False) -> str:
         # No distance: nobody knows yet how much room there is ahead.
         explore = pick('"explore the house"', "探索一下房子")
         return f"try: {first}{pons} say {explore}, then: {pons} map {settings.mapping}"
-    return f"try: {first}{drives_to_try(settings.site)}   {pons} stop"
+    return f"try: {first}{drives_to_try(settings)}   {pons} stop"
 
 
 def brain_example(home: Path, root: Path = ROOT) -> str:

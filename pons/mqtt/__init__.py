@@ -5,7 +5,6 @@ Needs the extra ``mqtt`` (aiomqtt); nothing else of ours imports this package's 
 
 from __future__ import annotations
 
-import asyncio
 import os
 import signal
 import sys
@@ -43,6 +42,8 @@ def is_wanted(home: Path) -> bool:
 
 def run(settings: LaunchSettings) -> int:
     """Serve until SIGTERM or Ctrl-C; 2 where something must be mended first."""
+    import asyncio  # late, as all below: `pons up` asks for is_wanted alone, and stays small
+
     from planner.settings import load_settings
     from wire import ConfigError, load_robot
 
