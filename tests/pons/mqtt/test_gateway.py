@@ -206,6 +206,7 @@ def test_a_home_that_starts_later_is_told_again(joined: Joined) -> None:
 
 
 def test_a_broker_that_comes_back_is_joined_again_and_no_stop_was_lost(joined: Joined) -> None:
+    joined.told(lambda ears: ears.until(f"pons/{ROBOT}/availability", b"online"))
     joined.broker.end()
     joined.broker.start()
 
