@@ -33,6 +33,7 @@ FOUR = (*THREE, "tests/b.py::test_d")
     [
         (0, (), 0, ["first"], 0),
         (2, ONE, 0, ["first"], 2),  # Ctrl-C
+        (5, (), 0, ["first"], 0),  # a room without any
         (1, ONE, 0, ["first", "again"], 0),
         (1, THREE, 1, ["first", "again"], 1),
         (1, FOUR, 0, ["first"], 1),
