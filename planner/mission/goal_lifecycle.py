@@ -179,6 +179,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         case Clarify(options=(Option(plan=StepPlan(steps=(_, *_)) as offered),)) if (
             vain := unwalkable(turn.book, mission, plan_record(offered).steps)
         ):  # a yes would only be refused
+            mission = turn.put(mission, plan=plan_record(offered))
             finish(turn, mission, BrainCause.REFUSES, vain, vain.code.value)
         case Clarify():
             told = go_on_told(turn.book, tell_offer(mission, plan.question), turn.now_s)

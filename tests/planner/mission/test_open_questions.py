@@ -39,6 +39,7 @@ from planner.plan import (
     Say,
     StepPlan,
     StepState,
+    plan_record,
     say_same,
 )
 from tests.planner.mission.driving import (
@@ -141,6 +142,7 @@ def test_what_cannot_be_walked_whole_is_refused_before_anything_moves(
         mission = world.goal(world.give(made))
         assert mission.state is GoalState.REFUSED
         assert outcome_of(mission).code is code
+        assert mission.plan == plan_record(plan).model_copy(update={"steps": mission.steps})
         assert standing_still(world)
 
 
