@@ -157,9 +157,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     if plan is None:
         unsaid = message(Code.BAD_PLAN, why=say("plan.no_answer"))
         outcome = event.failure or Outcome(code=Code.BAD_PLAN, message=unsaid)
-        unavailable = outcome.code is Code.MODEL_UNAVAILABLE
         mission = turn.put(mission, brain=event.brain)
-        cause = BrainCause.FAILS if unavailable else BrainCause.REFUSES
+        cause = BrainCause.FAILS if outcome.code is Code.MODEL_UNAVAILABLE else BrainCause.REFUSES
         finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
