@@ -134,14 +134,16 @@ def _goals_named(turn: Transaction, new: Mission) -> list[Mission]:
     """Return the open goals of which a person's words name a place or a thing."""
     open_ = (*IN_HAND, GoalState.RUNNING, GoalState.QUEUED, GoalState.PAUSED)
     places = set(places_named(new.words, turn.book.facts.names))
-    return [m for m in _goals_in(turn, new, *open_) if _is_named(m, places, new.words)]
+    return [
+        goal
+        for goal in _goals_in(turn, new, *open_)
+        if _goes_to(goal, places)
+        or any(step.object and label_named(step.object, new.words) for step in goal.steps)
+    ]
 
 
-def _is_named(goal: Mission, places: set[str], words: str) -> bool:
-    """Tell whether words name a place or a thing of a goal's steps."""
-    return bool(places & {place for step in goal.steps for place in places_of(step)}) or any(
-        step.object and label_named(step.object, words) for step in goal.steps
-    )
+def _goes_to(goal: Mission, places: set[str]) -> bool:
+    return any(not places.isdisjoint(places_of(step)) for step in goal.steps)
 
 
 def goals_to_end(book: MissionState, new: Mission) -> tuple[str, ...]:
@@ -154,7 +156,7 @@ def goals_to_end(book: MissionState, new: Mission) -> tuple[str, ...]:
     if found is None:
         return (new.id,) if new.replies else ()
     goal, places = book.missions[found], set(places_named(new.words, book.facts.names))
-    if goal.state is GoalState.PAUSED and places and not _is_named(goal, places, new.words):
+    if goal.state is GoalState.PAUSED and places and not _goes_to(goal, places):
         return ()
     added = (i for i in book.queue if book.missions[i].first and i != found and not places)
     return (found, *added)
