@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     Halt = Literal["stop", "estop", "disarm"]
 
-HALTS = ("stop", "estop", "disarm")
+HALTS = {"stop": "停止", "estop": "保护性停止", "disarm": "下电"}  # as they are called in Chinese
 HTTP_HEAD_START_S = 0.15
 HTTP_TIMEOUT_S = 2.5
 GUESS_S = 0.5
@@ -37,19 +37,19 @@ EXIT_UNCONFIRMED = 6
 EXIT_REFUSED = 3
 CONFIRMED = (
     "stop taken, the robot ramps to a stand (bridge confirmed)",
-    "已收到停止，正在停稳（bridge 已确认）",
+    "已收到停止，正在停稳（安全桥已确认）",
 )
-SENT = "{word} sent; asking the bridge itself", "{word} 已发出，正在向 bridge 核实"
+SENT = "{word} sent; asking the bridge itself", "已发出“{word}”，正在向安全桥核实"
 SAID_BY_PLANNER = (
     "the planner says that the bridge took the {word} (not asked from here: {why})",
-    "规划器称 bridge 已收到 {word}（此处无法直接核实：{why}）",
+    "规划器称安全桥已收到“{word}”（此处无法直接核实：{why}）",
 )
 UNCONFIRMED = (
     (
         "the bridge itself did not confirm the {word}. Without a bridge the drive's own "
         "time-out stops the wheels; use the robot's stop button."
     ),
-    "bridge 没有确认 {word}。没有 bridge 时，驱动自身的超时会让轮子停下；请按机器人上的停止按钮。",
+    "安全桥没有确认“{word}”。没有安全桥时，驱动自身的超时会让轮子停下；请按机器人上的停止按钮。",
 )
 
 
@@ -122,24 +122,24 @@ def leave(status: int) -> NoReturn:
 
 def _halt(robot: LaunchSettings, word: Halt, *, tells: bool) -> HaltOutcome:
     """Give one robot the order by both ways."""
-    by_http = _Attempt(robot, word)
+    by_http, named = _Attempt(robot, word), pick(word, HALTS[word])
     by_http.start()
     by_http.join(HTTP_HEAD_START_S)
     if by_http.confirmed and tells:  # loading the wire takes longer than the stop itself
-        print(pick(*SENT).format(word=word), file=sys.stderr, flush=True)
+        print(pick(*SENT).format(word=named), file=sys.stderr, flush=True)
     out_of_reach = _out_of_reach(robot) if by_http.confirmed else None
     answer = out_of_reach or _straight_to_the_bridge(robot, word)
     if not isinstance(answer, str):
         return answer
     by_http.join(HTTP_TIMEOUT_S)
     if by_http.confirmed and (out_of_reach := out_of_reach or _out_of_reach(robot)):
-        return HaltOutcome(0, pick(*SAID_BY_PLANNER).format(word=word, why=out_of_reach))
+        return HaltOutcome(0, pick(*SAID_BY_PLANNER).format(word=named, why=out_of_reach))
     planner = by_http.trouble or "no answer yet"
     if by_http.confirmed:
         planner = "it says that the bridge confirmed, and is not believed"
     return HaltOutcome(
         EXIT_UNCONFIRMED,
-        f"no_bridge: {pick(*UNCONFIRMED).format(word=word)} Planner: {planner}. Bridge: {answer}",
+        f"no_bridge: {pick(*UNCONFIRMED).format(word=named)} Planner: {planner}. Bridge: {answer}",
     )
 
 

@@ -144,4 +144,5 @@ class FallbackBrain:
 def _is_lost(thought: ThinkResult) -> bool:
     """Tell whether the offline brain understood nothing, and has nothing to offer."""
     plan = thought.plan
-    return isinstance(plan, Clarify) and plan.code is Code.NOT_UNDERSTOOD and not plan.options
+    unread = isinstance(plan, Clarify | Refuse) and plan.code is Code.NOT_UNDERSTOOD
+    return unread and not getattr(plan, "options", ())

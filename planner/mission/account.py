@@ -200,7 +200,7 @@ def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
             seconds = f"{step.seconds or 0.0:g}"
             yield say("account.waited", seconds=seconds)
         case "say":
-            yield say("account.said", text=step.text)
+            yield say("account.said", text=(step.text or "").rstrip("。."))
         case "go_to_point":
             yield say("account.at_point")
         case "repeat" if step.round > 1:

@@ -15,7 +15,9 @@ from planner.mission.observations import exchanges_of
 from planner.mission.open_questions import (
     ask_anew,
     ask_plainly,
+    ask_which,
     asks,
+    chooses,
     close_older,
     confirms,
     find_offer,
@@ -70,6 +72,7 @@ from planner.plan import (
     Clarify,
     Code,
     GoalState,
+    Option,
     Outcome,
     PauseReason,
     PlanRole,
@@ -154,9 +157,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     if plan is None:
         unsaid = message(Code.BAD_PLAN, why=say("plan.no_answer"))
         outcome = event.failure or Outcome(code=Code.BAD_PLAN, message=unsaid)
-        unavailable = outcome.code is Code.MODEL_UNAVAILABLE
         mission = turn.put(mission, brain=event.brain)
-        cause = BrainCause.FAILS if unavailable else BrainCause.REFUSES
+        cause = BrainCause.FAILS if outcome.code is Code.MODEL_UNAVAILABLE else BrainCause.REFUSES
         finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
@@ -167,13 +169,17 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         close_older(turn, mission)
     match plan:
         case AnswerPlan():
-            words = message(Code.ANSWERED, text=plan.text)
-            outcome = Outcome(code=Code.ANSWERED, message=words)
+            outcome = Outcome(code=Code.ANSWERED, message=message(Code.ANSWERED, text=plan.text))
             finish(turn, mission, BrainCause.ANSWERS, outcome)
         case Refuse():
             told = go_on_told(turn.book, plan.reason, turn.now_s)
             outcome = Outcome(code=plan.code, message=told)
             finish(turn, mission, BrainCause.REFUSES, outcome, plan.code.value)
+        case Clarify(options=(Option(plan=StepPlan(steps=(_, *_)) as offered),)) if (
+            vain := unwalkable(turn.book, mission, plan_record(offered).steps)
+        ):  # a yes would only be refused
+            mission = turn.put(mission, plan=plan_record(offered))
+            finish(turn, mission, BrainCause.REFUSES, vain, vain.code.value)
         case Clarify():
             told = go_on_told(turn.book, tell_offer(mission, plan.question), turn.now_s)
             said = Outcome(code=plan.code, message=told)
@@ -248,8 +254,10 @@ def reply(turn: Transaction, mission: Mission, text: str, by: str) -> None:
     agreed, order = parse(text).consent, find_offer(mission)
     if asks(mission):
         take_answer(turn, mission, text)
-    elif agreed is False and (order is not None or confirms(mission)):
+    elif agreed is False and (order is not None or confirms(mission) or chooses(mission)):
         take_no(turn, mission)
+    elif agreed and chooses(mission):
+        ask_which(turn, mission)
     elif confirms(mission) and agreed:
         ready(turn, mission, PersonCause.AGREES)
     elif confirms(mission):

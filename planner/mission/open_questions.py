@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, list_names, message, say
+from planner.language.folding import fold_words
 from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
@@ -40,6 +41,7 @@ from planner.skills.skill_state import BoundedSearchState
 MAX_ANSWER = 2000
 SUPERSEDED = "superseded"
 WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION})
+_MARKS = " .,!?;~…。，！？；"
 _YES_OR_NO = say("question.yes_or_no")
 
 
@@ -150,6 +152,26 @@ def asks_freely(mission: Mission) -> bool:
 def takes_yes(mission: Mission) -> bool:
     """Tell whether a plain yes or no answers what a goal waits for."""
     return asks(mission) or confirms(mission) or find_offer(mission) is not None
+
+
+def awaits(mission: Mission, text: str) -> bool:
+    """Tell whether a sentence is the very word that a goal's step waits for."""
+    step = mission.current_step if asks(mission) else None
+    word = None if step is None else step.word
+    return word is not None and fold_words(text).strip(_MARKS) == fold_words(word).strip(_MARKS)
+
+
+def chooses(mission: Mission) -> bool:
+    """Tell whether a brain's question offers several orders."""
+    is_open = mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
+    return is_open and mission.plan is not None and len(mission.plan.options) > 1
+
+
+def ask_which(turn: Transaction, mission: Mission) -> None:
+    """Ask which of several orders is meant, after a mere yes."""
+    offers = () if mission.plan is None else mission.plan.options
+    asked = say("question.which_offer", offers=list_names(each.label for each in offers))
+    turn.put(mission, outcome=Outcome(code=Code.AMBIGUOUS, message=asked))
 
 
 def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:

@@ -17,6 +17,7 @@ from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import label_named, places_named
 from planner.mission.open_questions import WAITS, take_sentence
 from planner.mission.queue import cancel, finish
+from planner.mission.state import goal_to_end
 from planner.mission.transitions import BrainCause
 from planner.plan import (
     Bilingual,
@@ -33,7 +34,7 @@ from planner.plan import (
 )
 
 if TYPE_CHECKING:
-    from planner.mission.state import GivenOrder, Mission
+    from planner.mission.state import GivenOrder, Mission, MissionState
     from planner.mission.transaction import Transaction
     from planner.plan import StepPlan
 
@@ -131,15 +132,34 @@ def _goals_in(turn: Transaction, new: GivenOrder, *states: GoalState) -> list[Mi
 
 def _goals_named(turn: Transaction, new: Mission) -> list[Mission]:
     """Return the open goals of which a person's words name a place or a thing."""
-    names = turn.book.facts.names
-    places = set(places_named(new.words, names))
     open_ = (*IN_HAND, GoalState.RUNNING, GoalState.QUEUED, GoalState.PAUSED)
+    places = set(places_named(new.words, turn.book.facts.names))
     return [
         goal
         for goal in _goals_in(turn, new, *open_)
-        if places & {place for step in goal.steps for place in places_of(step)}
+        if _goes_to(goal, places)
         or any(step.object and label_named(step.object, new.words) for step in goal.steps)
     ]
+
+
+def _goes_to(goal: Mission, places: set[str]) -> bool:
+    return any(not places.isdisjoint(places_of(step)) for step in goal.steps)
+
+
+def goals_to_end(book: MissionState, new: Mission) -> tuple[str, ...]:
+    """Return the goals that a plain "forget that" or a denial ends; none: there are none.
+
+    What was added to the running order ends with it, and a paused order is not ended by the denial
+    of a place that it has nothing to do with.
+    """
+    found = goal_to_end(book, new.id)
+    if found is None:
+        return (new.id,) if new.replies else ()
+    goal, places = book.missions[found], set(places_named(new.words, book.facts.names))
+    if goal.state is GoalState.PAUSED and places and not _goes_to(goal, places):
+        return ()
+    added = (i for i in book.queue if book.missions[i].first and i != found and not places)
+    return (found, *added)
 
 
 def _ask(turn: Transaction, mission: Mission, question: Bilingual, *offers: Option) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
-from planner.language.catalogue import message, say
+from planner.language.catalogue import join, message, say
 from planner.language.commands import (
     BatteryCommand,
     CancelCommand,
@@ -39,10 +39,10 @@ from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.fact_commands import FactCommands
 from planner.mission.follow_up import last_orders
+from planner.mission.plan_roles import goals_to_end
 from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
-from planner.mission.state import goal_to_end
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse, Say, StepPlan, steps_of
 from planner.site import PlaceRefusal
 from planner.site.known_places import Lesson
@@ -190,9 +190,7 @@ class PlannerCommands:
             case PauseCommand():
                 return self._command_goal("pause", events.Pause, goal_to_pause(book, mission.id))
             case CancelCommand():
-                own = mission.id if mission.replies else None
-                found = goal_to_end(book, mission.id)
-                return self._command_goal("cancel", events.Cancel, found or own)
+                return self._command_goal("cancel", events.Cancel, *goals_to_end(book, mission))
             case ResumeCommand():
                 return self._command_goal("resume", events.Resume, goal_to_resume(book, mission.id))
             case Doing():
@@ -208,17 +206,16 @@ class PlannerCommands:
                 return AnswerPlan(text=tell_position(book, self._loop.status_age_s))
 
     def _command_goal(
-        self, what: str, make: Callable[[str], Command], goal_id: str | None
+        self, what: str, make: Callable[[str], Command], *goals: str | None
     ) -> AnswerPlan:
-        """Give a command about a goal and tell its result."""
+        """Give a command about goals and tell its result."""
         done, nothing = _SAID[what]
-        if goal_id is None:
-            return AnswerPlan(text=nothing)
-        text = self._loop.book.missions[goal_id].text[:60]
-        error = self._loop.obey(make(goal_id))
-        if error is not None:
-            return AnswerPlan(text=error.message)
-        return AnswerPlan(text=say("commands.done", done=done, text=text))
+        told = []
+        for goal_id in filter(None, goals):
+            text = self._loop.book.missions[goal_id].text[:60]
+            error = self._loop.obey(make(goal_id))
+            told.append(error.message if error else say("commands.done", done=done, text=text))
+        return AnswerPlan(text=join(told) if told else nothing)
 
     def _change_speed(self, *, slower: bool) -> AnswerPlan:
         """Change the speed cap of the running goal and tell the new one."""

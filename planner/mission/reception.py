@@ -27,7 +27,7 @@ from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, PersonMissing, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of
-from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
+from planner.mission.open_questions import WAITS, asks_freely, awaits, chooses, has_room, takes_yes
 from planner.mission.request_keys import Repeats, body_of, request_of
 from planner.mission.state import (
     RESERVED_KEYS,
@@ -313,12 +313,14 @@ def is_active(book: MissionState, now_s: float) -> bool:
 def goals_answered_by(book: MissionState, said: SaidSentence) -> tuple[str, ...]:
     """Return the goals whose question a sentence may answer; one alone is beyond doubt.
 
-    None unless it is a plain yes or no and one of them takes it. A question that takes neither (a
-    brain's about the order, which offers no or several orders) counts where it is no older than the
+    None unless it is the word that one waits for, or a plain yes or no and one of them takes it. A
+    brain's question that offers no order takes neither, and counts where it is no older than the
     newest of these: it may be meant, too.
     """
-    if said.consent is None:
-        return ()
+    if (awaited := tuple(m.id for m in book.missions.values() if awaits(m, said.text))) or (
+        said.consent is None
+    ):
+        return awaited
     intent = said.intent
     if not (intent is None or (isinstance(intent, GoOn) and goal_to_resume(book) is None)):
         return ()  # "go on" is a yes where there is nothing else to go on with
@@ -326,7 +328,7 @@ def goals_answered_by(book: MissionState, said: SaidSentence) -> tuple[str, ...]
     taking = {m.id: m.updated_unix_s for m in waiting if takes_yes(m)}
     if not taking:  # "Do you mean the kitchen?" of a model: it reads the word itself
         alone = len(waiting) == 1 and intent is None
-        return tuple(m.id for m in waiting if alone and asks_freely(m))
+        return tuple(m.id for m in waiting if chooses(m) or (alone and asks_freely(m)))
     newest_unix_s = max(taking.values())
     return tuple(m.id for m in waiting if m.id in taking or m.updated_unix_s >= newest_unix_s)
 

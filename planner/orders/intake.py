@@ -119,7 +119,7 @@ class OrderIntake:
                 return None if plan is None else Planned(ask.id, plan)
             command = command.otherwise
         planned = None if answered else await self._consider_deed(command, ask)
-        if planned is not None and is_remark(planned):
+        if planned is not None and is_remark(planned, command.problem):
             return None  # "Tom comes home at six": the whole sentence is a brain's
         command = replace(command, order=ask.text) if answered else command  # of the order within
         return Planned(ask.id, await self._keep(command, ask, given, planned))
@@ -267,7 +267,7 @@ class OrderIntake:
         return [
             say("standing.changed", line=join(told))
             if done == "changed"
-            else say(f"standing.{done}", lines=join(told, "joint.name"))
+            else say(f"standing.{done}", lines=join(told, "joint.line"))
             for done, told in lines.items()
         ]
 

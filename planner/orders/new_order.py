@@ -13,7 +13,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import build, join, raw, say
-from planner.language.schedule import ScheduleCommand
+from planner.language.folding import has_chinese
+from planner.language.schedule import OrderCommand, ScheduleCommand
 from planner.language.schedule.reader import MAX_READ
 from planner.language.sentence import language_of, parse
 from planner.orders.errors import OrderRefusal
@@ -27,7 +28,9 @@ from planner.plan import (
     Code,
     Language,
     Option,
+    Recall,
     Refuse,
+    StepPlan,
     plan_record,
     say_same,
     words_of,
@@ -37,10 +40,11 @@ from planner.plan.timing import AtRule, CronRule, DayTime, EventRule, EveryRule,
 if TYPE_CHECKING:
     from datetime import date, tzinfo
 
+    from planner.language.schedule.parts import Problem
     from planner.mission.events import Planned
     from planner.orders.order import StandingOrder
     from planner.orders.scheduler import OrderBook
-    from planner.plan import Step, StepPlan, StepRecord
+    from planner.plan import Step, StepRecord
     from planner.plan.timing import Rule
 
 QUIET_LOOKED = 30
@@ -186,11 +190,20 @@ def find_same(new: NewOrder, rule: Rule, book: OrderBook) -> StandingOrder | Non
     return next((o for o in book.orders.values() if (o.rule, o.order, o.paused) == wanted), None)
 
 
-def is_remark(planned: Planned) -> bool:
-    """Tell whether a thought finds nothing that the robot could do: "pizza tonight" is no order."""
+def is_remark(planned: Planned, problem: Problem | None = None) -> bool:
+    """Tell whether a thought finds nothing to be done then: "pizza tonight" is no order.
+
+    So are a question to memory without an hour (你今天都干了些啥) and a change of what is kept
+    (晚上八点那个改成九点): their time is no order's, and the whole sentence is read.
+    """
     plan = planned.plan
+    if isinstance(plan, StepPlan):
+        recalls = all(isinstance(step, Recall) for step in plan.steps)
+        return problem == "order_time_missing" and recalls
+    options = plan.options if isinstance(plan, Clarify) else ()
     lost = isinstance(plan, Clarify | Refuse) and plan.code in _LOST
-    return isinstance(plan, AnswerPlan) or (lost and not getattr(plan, "options", ()))
+    changes = (isinstance(parse(each.text).intent, OrderCommand) for each in options)
+    return isinstance(plan, AnswerPlan) or (lost and all(changes))
 
 
 def judge_deed(new: NewOrder, planned: Planned) -> tuple[StepRecord, ...]:
@@ -228,7 +241,7 @@ def put_time_before(asked: Clarify, words: str) -> Clarify:
     options = tuple(
         each.model_copy(
             update={
-                "text": f"{words} {each.text}".strip()[:2000],
+                "text": f"{words}{'' if has_chinese(words) else ' '}{each.text}"[:2000],
                 "is_standing": each.plan is not None,
             }
         )

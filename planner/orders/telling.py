@@ -221,7 +221,7 @@ class OrderTelling:
         shown = lines[:MOST_TOLD]
         if len(lines) > MOST_TOLD:
             shown.append(say("standing.more", count=len(lines) - MOST_TOLD))
-        return say("standing.list", lines=list_names(shown, "joint.name"))
+        return say("standing.list", lines=join(shown, "joint.line"))
 
     def answer(
         self, asked: ListOrders
@@ -250,7 +250,7 @@ class OrderTelling:
             waiting = [order for order in waiting if order.is_once]
         if waiting:
             lines = [self._line_left(order, due[order.id]) for order in waiting[:MOST_TOLD]]
-            return say("standing.next_runs", lines=list_names(lines, "joint.name"))
+            return say("standing.next_runs", lines=join(lines, "joint.line"))
         if not asked.is_sure:
             return None
         if found:  # paused, or upon an event
@@ -282,7 +282,7 @@ class OrderTelling:
         if not told:
             return say("standing.day_free", day=name) if is_sure or self.live else None
         lines = [line for _, line in sorted(told, key=lambda each: each[0])]
-        return say("standing.day_list", day=name, lines=list_names(lines, "joint.name"))
+        return say("standing.day_list", day=name, lines=join(lines, "joint.line"))
 
     def _lines_of_day(
         self, order: StandingOrder, runs: list[float]
@@ -303,7 +303,7 @@ class OrderTelling:
             Option(label=self.line(order), text=form.format(id=order.id).strip())
             for order in orders[:MOST_TOLD]
         )
-        lines = join((option.label for option in options), "joint.name")
+        lines = join((option.label for option in options), "joint.line")
         question = say("standing.which", lines=lines)
         return Clarify(code=Code.AMBIGUOUS, question=question, options=options)
 

@@ -25,7 +25,7 @@ _WORDS = {
     "en": {"ready": "ready", "off": "disarmed", "error": "stopped by a fault", "held": "stopped",
            "paused": "paused: {}", "asks": "asks: {}", "silent": "no word from the bridge"},
     "zh": {"ready": "就绪", "off": "未上电", "error": "因故障停止", "held": "已停止",
-           "paused": "已暂停：{}", "asks": "询问：{}", "silent": "没有收到 bridge 的消息"},
+           "paused": "已暂停：{}", "asks": "询问：{}", "silent": "没有收到安全桥的消息"},
 }  # fmt: skip
 
 

@@ -191,6 +191,9 @@ def _ask(problem: ClauseProblem, options: tuple[Option, ...], setting: Setting) 
         question = message(problem.code, part=_cut(problem.part), what=what)
     elif problem.code is Code.UNKNOWN_PLACE:
         question = _unknown(problem, setting)
+    elif problem.code is Code.NOT_UNDERSTOOD and len(options) == 1 and setting.offers:
+        said = say("grammar.unread_part", part=_cut(problem.part))
+        question = say("grammar.only", said=said, order=options[0].label)  # what a yes does is told
     else:
         question = message(problem.code, part=_cut(problem.part))
     return Clarify(code=problem.code, question=question, options=options if setting.offers else ())
@@ -199,7 +202,9 @@ def _ask(problem: ClauseProblem, options: tuple[Option, ...], setting: Setting) 
 def _unknown(problem: ClauseProblem, setting: Setting) -> Bilingual:
     vocabulary = setting.vocabulary
     names = [vocabulary.name(place) for place in problem.places if setting.offers]
-    near = say("grammar.did_you_mean", names=list_names(names)) if names else say_same("")
+    near = (
+        say("grammar.did_you_mean", names=list_names(names, "joint.or")) if names else say_same("")
+    )
     return message(problem.code, name=_cut(problem.name), near=near, known=known_places(vocabulary))
 
 

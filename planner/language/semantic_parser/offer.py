@@ -81,7 +81,7 @@ _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
 def offer_plan(
     told: Plan, text: str, vocabulary: Vocabulary, language: Language, context: Context
-) -> StepPlan | Clarify | None:
+) -> StepPlan | Clarify | Refuse | None:
     """Return what is laid before a person whose sentence no rule reads; None: nothing.
 
     Args:
@@ -105,7 +105,8 @@ def offer_plan(
         is_told = told.code in _BEYOND | _DOUBTED or (told.code is Code.NEGATED and not has_offer)
         if not is_sure or is_told:
             return None
-        return Clarify(code=Code.NOT_UNDERSTOOD, question=say(_TALK[node.form]))
+        # Nothing is asked, so nothing waits for an answer.
+        return Refuse(code=Code.NOT_UNDERSTOOD, reason=say(_TALK[node.form]))
     if told.code in _BEYOND and has_offer and node.form not in CHANGES:  # a part of it is offered
         return None
     if node.form in COMMANDS and is_sure:

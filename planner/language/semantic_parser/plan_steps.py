@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
+from planner.language.questions import read_question
 from planner.language.semantic_parser.amounts import amount_value
 from planner.language.semantic_parser.plan_grammar import (
     ALL,
@@ -146,7 +147,17 @@ class StepMaker:
 
     def question(self, what: str) -> str:
         """Return what a look is asked: whether it is there, or so."""
-        return f"{what}?" if self.language is Language.EN else f"{what}？"
+        if self.language is Language.EN:
+            return f"{what}?"
+        asked = f"有没有{what}？"  # 老头子？ asks for nothing that eyes could know or not know
+        is_thing = any(certain for _, certain, *_ in read_question(asked, {}).asked)
+        return asked if is_thing else f"{what}？"
+
+    def words_to(self, slots: _Slots) -> str:
+        """Return the words that somebody is told or asked, the name first."""
+        words, person = slots.need(0), slots.text(1)
+        comma = ", " if self.language is Language.EN else "，"
+        return words if person is None else f"{person}{comma}{words}"
 
     def around(self) -> str:
         """Return what a look round is asked."""
@@ -228,11 +239,6 @@ def _follow(_: StepMaker, slots: _Slots) -> tuple[Step, ...]:
     return (Find(object=person), Follow(object=person, seconds=slots.amount(1)))
 
 
-def _words_to(slots: _Slots) -> str:
-    words, person = slots.need(0), slots.text(1)
-    return words if person is None else f"{person}, {words}"
-
-
 def _wait_until(maker: StepMaker, slots: _Slots) -> tuple[Step, ...]:
     return (WaitFor(time=maker.read_hour(slots.need(0))),)
 
@@ -274,8 +280,8 @@ _MAKERS: dict[str, Callable[[StepMaker, _Slots], tuple[Step, ...]]] = {
     "count": _count,
     "find": lambda _, slots: (Find(object=slots.need(0), place=slots.text(1)),),
     "follow": _follow,
-    "say": lambda _, slots: (Say(text=_words_to(slots)),),
-    "ask": lambda _, slots: (Ask(question=_words_to(slots)),),
+    "say": lambda maker, slots: (Say(text=maker.words_to(slots)),),
+    "ask": lambda maker, slots: (Ask(question=maker.words_to(slots)),),
     "wait": lambda _, s: (Wait(seconds=s.amount(0) or _LITTLE[SlotKind.DURATION]),),
     "wait_for": lambda _, slots: (WaitFor(object=slots.need(0)),),
     "wait_word": lambda _, slots: (WaitFor(word=slots.need(0)),),

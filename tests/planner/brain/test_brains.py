@@ -17,7 +17,7 @@ from planner.brain import (
     ScriptedBrain,
     ThinkRequest,
 )
-from planner.plan import AnswerPlan, Code, GoTo, Refuse, StepPlan, Vocabulary, Wait
+from planner.plan import AnswerPlan, Clarify, Code, GoTo, Refuse, StepPlan, Vocabulary, Wait
 
 GOOD = StepPlan(steps=(Wait(seconds=1.0),))
 
@@ -39,6 +39,13 @@ def test_a_yes_to_nothing_is_told_so(home: Vocabulary, text: str) -> None:
     assert isinstance(made, AnswerPlan)
     assert "asked nothing" in made.text.en
     assert "没有在等" in made.text.zh
+
+
+def test_what_a_yes_would_do_is_told_in_the_question(home: Vocabulary) -> None:
+    made = ask(OfflineBrain(), home, "去厨房叫我起床")
+    assert isinstance(made, Clarify)
+    [option] = made.options
+    assert made.question.zh == f"没有模型，我读不懂“叫我起床”。要不要只做这些：{option.label.zh}？"
 
 
 def test_offline_brain_knows_the_room_it_is_told(home: Vocabulary) -> None:

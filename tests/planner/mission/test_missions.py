@@ -23,7 +23,18 @@ from planner.mission import (
 )
 from planner.mission.events import Journalled
 from planner.mission.loop import Loop
-from planner.plan import ENDED, Ask, Bilingual, Clarify, Code, Goal, GoalState, GoTo, StepPlan
+from planner.plan import (
+    ENDED,
+    Ask,
+    Bilingual,
+    Clarify,
+    Code,
+    Goal,
+    GoalState,
+    GoTo,
+    PlanRole,
+    StepPlan,
+)
 from planner.site import Site, TaughtPlaces
 from planner.site.known_places import KnownPlaces, Lesson
 from tests.planner.mission import live
@@ -284,6 +295,24 @@ async def test_the_planner_answers_while_the_model_hangs(tmp_path: Path) -> None
         assert told(await say(together, "never mind")) == "There is nothing to cancel."
         assert "nothing to do" in told(await say(together, "status"))
         assert together.bridge.waypoints == []
+
+
+async def test_forget_that_means_what_was_added_too_and_a_denial_no_other_place(
+    tmp_path: Path,
+) -> None:
+    added = StepPlan(steps=(GoTo(place="sofa"),), does=PlanRole.AFTER)
+    async with planner(tmp_path, KITCHEN, added) as together:
+        first = await together.give(TO_KITCHEN, GoalState.RUNNING)
+        second = await together.give("and have a look at the sofa", GoalState.QUEUED)
+        assert told(await say(together, "never mind")).count("Cancelled: ") == 2
+        for goal in (first, second):
+            assert together.missions.goal(goal.id).state is GoalState.CANCELLED
+    async with planner(tmp_path / "other", KITCHEN) as together:
+        kept = await together.give(TO_KITCHEN, GoalState.RUNNING)
+        await say(together, "hold on")
+        assert told(await say(together, "别去客厅，宝宝睡着了")) == "There is nothing to cancel."
+        assert together.missions.goal(kept.id).state is GoalState.PAUSED
+        assert told(await say(together, "别去厨房，宝宝睡着了")).startswith("Cancelled: ")
 
 
 async def test_a_goal_that_is_taken_back_makes_room_for_the_rest(tmp_path: Path) -> None:

@@ -39,6 +39,7 @@ from planner.plan import (
     Say,
     StepPlan,
     StepState,
+    plan_record,
     say_same,
 )
 from tests.planner.mission.driving import (
@@ -134,11 +135,15 @@ def test_answers_and_refusals_end_at_once(world: Together) -> None:
 def test_what_cannot_be_walked_whole_is_refused_before_anything_moves(
     world: Together, plan: StepPlan, code: Code
 ) -> None:
-    goal = world.give(plan)
-    mission = world.goal(goal)
-    assert mission.state is GoalState.REFUSED
-    assert outcome_of(mission).code is code
-    assert standing_still(world)
+    offer = Option(label=say_same("so"), text="so", plan=plan)
+    asks = Clarify(code=Code.NOT_UNDERSTOOD, question=say_same("So?"), options=(offer,))
+    both: tuple[Any, ...] = (plan, asks)
+    for made in both if plan.steps else both[:1]:  # it is not asked about in vain, either
+        mission = world.goal(world.give(made))
+        assert mission.state is GoalState.REFUSED
+        assert outcome_of(mission).code is code
+        assert mission.plan == plan_record(plan).model_copy(update={"steps": mission.steps})
+        assert standing_still(world)
 
 
 def test_an_order_to_stop_is_a_goal_that_is_done(world: Together) -> None:

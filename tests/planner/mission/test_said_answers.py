@@ -8,7 +8,7 @@ from planner.brain.scripted import Reply
 from planner.language.yes_no import consents
 from planner.mission import QueueFull
 from planner.mission.state import MAX_OPEN
-from planner.plan import AnswerPlan, Bilingual, Clarify, Code, GoalState, GoTo, StepPlan
+from planner.plan import AnswerPlan, Bilingual, Clarify, Code, GoalState, GoTo, StepPlan, WaitFor
 from tests.planner.mission.live import KITCHEN, Starter
 from tests.planner.mission.saying import (
     ASKS,
@@ -182,17 +182,18 @@ MANY = MAX_OPEN + 3
 BOTH_ROOMS = StepPlan(steps=(GoTo(place="kitchen"), GoTo(place="living_room")))
 
 
-@pytest.mark.parametrize("text", ["yes", "no"])
-async def test_a_question_that_offers_several_orders_takes_neither_word(
-    start: Starter, text: str
+@pytest.mark.parametrize(("text", "state"), [("好的", ASKS), ("yes", ASKS), ("不", CANCELLED)])
+async def test_of_several_orders_a_yes_asks_which_and_a_no_ends_it(
+    start: Starter, text: str, state: GoalState
 ) -> None:
-    several = OFFERS.model_copy(update={"options": (*OFFERS.options, *OFFERS.options)})
+    several = OFFERS.model_copy(update={"options": OFFERS.options * 2})
     async with start(several) as world:
-        await asking(world)
-        await world.give(text, ASKS)
-        assert heard(world)[-1] == text, "it is a goal, as any sentence"
-        assert world.brain.asked[-1].exchanges == ()
-        assert world.bridge.waypoints == []
+        goal = await world.give("please see to it", ASKS)
+        said = await world.missions.submit(text)
+        assert told(said)[2] == "Taken as the answer for “please see to it”."
+        after = await world.reach(goal.id, state)
+        assert state is CANCELLED or told(after)[2].startswith("Please say which one: ")
+        assert heard(world) == ["please see to it"], "no brain is asked"
 
 
 @pytest.mark.parametrize("text", ["yes", "no"])
@@ -345,3 +346,15 @@ async def test_open_goals_stand_first_in_every_list_however_old(start: Starter) 
         assert [g.id for g in world.missions.goals(2)] == [asks.id, plan.id]
         listed = [goal["id"] for goal in world.missions.snapshot()["goals"]]
         assert listed[:3] == [asks.id, plan.id, "g62"], "each newest first"
+
+
+@pytest.mark.parametrize(("said", "goes_on"), [("好了！", True), ("不好了", False)])
+async def test_the_word_that_is_waited_for_is_taken_as_it_is_said(
+    start: Starter, said: str, goes_on: bool
+) -> None:
+    waits = StepPlan(steps=(WaitFor(word="好了"), GoTo(place="kitchen")))
+    async with start(waits, WHICH) as world:
+        goal = await asking(world)
+        await world.missions.submit(said)
+        await later(world)
+        assert (world.missions.goal(goal.id).state is ASKS) is not goes_on

@@ -307,4 +307,4 @@ async def test_steps_that_hold_others_are_told_in_the_words_of_the_order(
     tmp_path: Path, deed: str
 ) -> None:
     kept = await kept_in(tmp_path)
-    assert f"今天 22:00我会按您说的做：“{deed}”" in await say(kept, f"今晚十点{deed}")
+    assert f"今天 22:00，我会按您说的做：“{deed}”" in await say(kept, f"今晚十点{deed}")

@@ -12,6 +12,7 @@ import pytest
 
 from planner.brain.scripted import Reply
 from planner.language.grammar.context import Context
+from planner.language.order_sentence import offer_order
 from planner.language.readers import OrderWords, read_order
 from planner.language.sentence import parse
 from planner.orders.errors import OrderRefusal
@@ -29,6 +30,7 @@ from planner.plan import (
     Goal,
     GoalState,
     Option,
+    Recall,
     Say,
     StepPlan,
 )
@@ -345,6 +347,22 @@ async def test_a_remark_that_holds_a_time_is_no_order_and_is_answered_as_said(
         assert told(goal) == "Good to know."
         assert made.orders.keeper.book.orders == {}
         assert made.together.brain.asked[-1].text == text
+
+
+@pytest.mark.parametrize(
+    ("text", "within"),
+    [
+        ("晚上八点那个改成九点吧", offer_order("改成九点")),
+        ("你今天都干了些啥", StepPlan(steps=(Recall(deeds=True),))),
+    ],
+)
+async def test_a_time_within_a_change_or_a_question_to_memory_is_no_time_of_an_order(
+    tmp_path: Path, text: str, within: Clarify | StepPlan
+) -> None:
+    async with home(tmp_path, within, AS_SAID, by_grammar=False) as made:
+        assert told(await made.say(text)) == "Good to know."
+        assert made.together.brain.asked[-1].text == text
+        assert made.orders.keeper.book.orders == {}
 
 
 async def test_an_order_that_a_brain_only_answers_is_refused_by_the_api(tmp_path: Path) -> None:

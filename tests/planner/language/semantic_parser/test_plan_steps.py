@@ -114,3 +114,17 @@ def test_any_drawn_plan_gives_steps_or_none() -> None:
     random, maker = Random(2), StepMaker(SITE, Language.EN, _hour)
     made = [maker.plan(parse_plan(draw_assignment(random, "en")[4])) for _ in range(300)]
     assert sum(plan is not None for plan in made) > 60
+
+
+@pytest.mark.parametrize(
+    ("label", "last"),
+    [
+        ('check("老花镜", in hall)', Look(question="有没有老花镜？", place="hall")),
+        ('check("冰箱门开着", in hall)', Look(question="冰箱门开着？", place="hall")),
+        ('say("吃饭了", to "爷爷")', Say(text="爷爷，吃饭了")),
+    ],
+)
+def test_chinese_words_are_put_as_chinese_is_written(label: str, last: Step) -> None:
+    made = StepMaker(SITE, Language.ZH, _hour).plan(parse_plan(label))
+    assert made is not None
+    assert made.steps[-1] == last
