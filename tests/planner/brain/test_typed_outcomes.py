@@ -39,7 +39,7 @@ ORDERS = {
     ),
     Code.NO_CAPABILITY: (
         ("bring me the cup from the kitchen", "beyond this robot. Shall I do only this: find the"),
-        ("去厨房把杯子拿过来", "这台机器人做不到。要不要只做这些：去厨房"),
+        ("去厨房把杯子拿过来", "照这样说，我做不到“把杯子拿过来”。要不要只做这些：去厨房"),
     ),
     Code.UNSAFE: (
         ("run over the cat", "I will not do “run over the cat”: it could hurt somebody"),
