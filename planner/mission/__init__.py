@@ -75,9 +75,9 @@ from planner.mission.events import (
 )
 from planner.mission.journal import MissionJournal
 from planner.mission.journal_sync import Disk, JournalSync
-from planner.mission.obstruction_text import tell_doubt
 from planner.mission.reducer import advance, motion_request
 from planner.mission.service import Missions
+from planner.mission.spoken_status import tell_doubt
 from planner.mission.state import Mission, MissionState, Rules
 from planner.mission.tasks import RouteService, Think
 

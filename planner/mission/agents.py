@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
 from planner.language.commands import BatteryCommand, Doing, OutcomeCommand, WhereCommand
-from planner.mission.allowed_commands import refusal
 from planner.mission.errors import NotOwnGoal, PersonMissing, UnknownGoal
 from planner.mission.open_questions import asks, confirms
 from planner.mission.state import AGENT_SOURCE
+from planner.mission.transitions import refusal
 from planner.plan import STEPLESS, Clarify, Code, Option, PlanRole, Refuse, StepPlan
 
 if TYPE_CHECKING:

@@ -3,14 +3,15 @@
 Pure; worked out once for a sentence, by its reception. What it changes is read by
 ``planner.language.changes``, put into the newest order's steps by ``planner.plan.apply``, and
 planned by the built-in brain alone: a model reads what was said. Law: nothing is leant on that is
-older than ``LEANS_S``, and where it is in doubt what is meant, nothing is changed.
+older than ``LEANS_S``, and where it is in doubt what is meant, nothing is changed. "Come back"
+leads to where the order before was given, where that is beyond doubt.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
-from math import pi
+from math import hypot, pi
 from typing import TYPE_CHECKING
 
 from planner.language.changes.reader import read_changes
@@ -24,12 +25,10 @@ from planner.language.person_names import is_given_name, people_named
 from planner.language.reading import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
-from planner.mission.answered_order import complete_person
-from planner.mission.antecedents import fits, name_antecedents, thing_of
-from planner.mission.departure import LEANS_S
+from planner.mission.antecedents import complete_person, fits, name_antecedents, thing_of
 from planner.mission.open_questions import find_choice, find_offered_plan
-from planner.mission.outcomes import spot_at
-from planner.mission.state import GivenOrder, goal_to_end
+from planner.mission.outcomes import moves, spot_at
+from planner.mission.state import ORDER_SOURCE, GivenOrder, goal_to_end
 from planner.plan import (
     Change,
     ChangedOrder,
@@ -47,6 +46,7 @@ if TYPE_CHECKING:
     from planner.language.commands import Intent
     from planner.language.sentence import SaidSentence
     from planner.mission.state import Mission, MissionState
+
 
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _ROUNDS = frozenset({Edit.LEAVE_OUT, Edit.FIRST})
@@ -291,3 +291,51 @@ def _was_read(mission: Mission) -> bool:
     plan = mission.plan
     lost = plan is not None and plan.code is Code.NOT_UNDERSTOOD
     return mission.state in _SPOKEN and not lost
+
+
+LEANS_S = 1800.0
+"""Half an hour: after it, "again" means nothing that a person could be held to."""
+AWAY_M, DRIVEN_M = 1.0, 0.1
+"""An order that is over, drove nothing and was given here was done here: one before is meant."""
+OLD_POSE_S = 1.0
+"""A status older than this says nothing of where the robot is."""
+Point = tuple[float, float, float]
+"""x [m], y [m], yaw [rad] in ``map``."""
+
+
+def find_robot(book: MissionState) -> Point | None:
+    """Return where the bridge's newest status says that the robot stands."""
+    pose = book.status.base_in_map if book.status is not None else None
+    return (pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None
+
+
+def departure_of(book: MissionState, now_s: float) -> Point | None:
+    """Return where the robot stood when the order was given that led it away from there."""
+    here = find_robot(book)
+    if here is None or not now_s - book.status_s <= OLD_POSE_S:
+        return None
+    now_unix_s = now_s + book.wall_offset_s
+    for order in sorted(book.missions.values(), key=lambda m: -m.order):
+        by_schedule = order.source.startswith(ORDER_SOURCE)
+        if not order.steps or order.state is GoalState.REFUSED or by_schedule:
+            continue
+        begin = order.accepted_at
+        if begin is None or order.map_id != book.facts.map_id:
+            return None
+        if not now_unix_s - order.created_unix_s <= LEANS_S:
+            return None
+        near = hypot(here[0] - begin[0], here[1] - begin[1]) <= AWAY_M
+        if not (near and order.has_ended and order.metres <= DRIVEN_M):
+            return begin
+    return None
+
+
+def way_back_of(mission: Mission) -> Point | None:
+    """Return where a goal's ``come_back`` leads: one that moves nowhere before leans on departure.
+
+    Else it is where the goal was accepted.
+    """
+    first = next((step for step in mission.steps if moves(step)), None)
+    if first is not None and first.kind == "come_back" and mission.departed_at is not None:
+        return mission.departed_at
+    return mission.accepted_at

@@ -5,13 +5,11 @@ from __future__ import annotations
 from planner.language.catalogue import join, message, say
 from planner.language.sentence import parse
 from planner.mission.activity import Thinking
-from planner.mission.answered_order import complete_order
-from planner.mission.conversation import situation_of
-from planner.mission.departure import departure_of, find_robot, way_back_of
+from planner.mission.antecedents import complete_order
+from planner.mission.conversation import exchanges_of, situation_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
-from planner.mission.follow_up import newest_order
-from planner.mission.observations import exchanges_of
+from planner.mission.follow_up import departure_of, find_robot, newest_order, way_back_of
 from planner.mission.open_questions import (
     ask_anew,
     ask_plainly,
@@ -32,11 +30,17 @@ from planner.mission.open_questions import (
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_check import UNASKED, ask_for_motion, unwalkable
 from planner.mission.plan_roles import (
+    ask_what_was_meant,
     assume_role,
+    corrects,
     end_current,
+    end_paused,
+    end_stopped,
     find_asking,
     goal_in_hand,
     share_of,
+    stop_after_all,
+    tell_left,
 )
 from planner.mission.queue import (
     acknowledge_hold,
@@ -54,14 +58,6 @@ from planner.mission.queue import (
 from planner.mission.replan import fingerprint, rethought
 from planner.mission.spoken_status import go_on_told
 from planner.mission.state import Mission
-from planner.mission.stop_sentences import (
-    ask_what_was_meant,
-    corrects,
-    end_paused,
-    end_stopped,
-    stop_after_all,
-    tell_left,
-)
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (

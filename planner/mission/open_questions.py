@@ -15,10 +15,17 @@ from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
 from planner.language.stop import is_stop
-from planner.mission.declined_goals import decline
 from planner.mission.outcomes import ended_outcome, moves
 from planner.mission.plan_check import key_of_deed, unwalkable
-from planner.mission.queue import clear_hold, enqueue, finish, hold_now, note_step, release_answered
+from planner.mission.queue import (
+    clear_hold,
+    decline,
+    enqueue,
+    finish,
+    hold_now,
+    note_step,
+    release_answered,
+)
 from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.state import MAX_ANSWERS, MAX_OPEN, GivenOrder, Mission, MissionState, Planning
 from planner.mission.transaction import Transaction

@@ -29,9 +29,9 @@ from planner.language.place_lists import rejection_outcome
 from planner.language.sentence import parse
 from planner.language.yes_no import consents
 from planner.mission.antecedents import ORDERS_BACK
-from planner.mission.departure import LEANS_S
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
+from planner.mission.follow_up import LEANS_S
 from planner.mission.tasks import Think
 from planner.plan import (
     BARE,

@@ -1,42 +1,49 @@
-"""Let a model's plan act on what runs: in its place, right after it, ending it, or as an answer.
+"""Let a plan act on what runs: in its place, after it, ending it, as an answer, or as a stop.
 
 Laws: a goal is ended only where the person's own words take something back, outside of conditions
 and quotes; a plan that comes in its place ends it no sooner than it may itself be walked. What
 answers a question is what the person said, word for word, and never what a model makes of it: so no
-model can say yes. Pure.
+model can say yes. A goal that a person took back by a stop never goes on by itself, and what is put
+in its place drives without a further yes only where the person's own words take the old one back
+and ask for the new. Pure.
 """
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
-from planner.language.catalogue import list_names, message, say
+from planner.language.catalogue import join, list_names, message, say
+from planner.language.commands import ResumeCommand
+from planner.language.folding import has_chinese
 from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import label_named, places_named
+from planner.language.sentence import parse
+from planner.mission.events import Planned
 from planner.mission.open_questions import WAITS, take_sentence
 from planner.mission.queue import cancel, finish
-from planner.mission.transitions import BrainCause
+from planner.mission.spoken_status import stop_told
+from planner.mission.state import GivenOrder, Mission, MissionState
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import BrainCause, PersonCause
 from planner.plan import (
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
     GoalState,
     Option,
     Outcome,
+    Plan,
     PlanRole,
+    Refuse,
+    StepPlan,
     Vocabulary,
     places_of,
     plan_record,
     say_same,
+    words_of,
 )
-
-if TYPE_CHECKING:
-    from planner.mission.state import GivenOrder, Mission
-    from planner.mission.transaction import Transaction
-    from planner.plan import StepPlan
-
 
 _ENDS_IT = (
     r"\b(?:forget|cancel|never ?mind|scrap|scratch|abort|drop|call off|leave it|skip|enough|quit"
@@ -187,3 +194,79 @@ def change_speed(turn: Transaction, mission: Mission, *, slower: bool) -> None:
     """
     share = mission.speed_share / 2.0 if slower else mission.speed_share * 2.0
     turn.put(mission, speed_share=min(1.0, max(LEAST_SPEED_SHARE, share)))
+
+
+UNCONFIRMED = say("goal.unconfirmed")
+
+
+def end_stopped(
+    turn: Transaction, mission: Mission, echoed: bool, also: Bilingual | None = None
+) -> None:
+    """End a sentence that was an order to stop, and say whether the bridge has heard it."""
+    heard = stop_told(turn.book) if echoed else UNCONFIRMED
+    told = heard if also is None else join((heard, also))
+    if echoed:
+        said = Outcome(code=Code.STOPPED, message=told)
+        finish(turn, mission, PersonCause.ORDERS_STOP, said)
+        return
+    said = Outcome(code=Code.FAULT, message=told)
+    turn.move_to(mission, PersonCause.STOP_UNHEARD, reason="bridge_silent", outcome=said)
+
+
+def end_paused(turn: Transaction, goal_id: str | None) -> None:
+    """End a goal that a person's words have stopped, and that is not to go on."""
+    stopped = turn.mission(goal_id)
+    if stopped is not None and stopped.state in (GoalState.PAUSED, GoalState.QUEUED):
+        cancel(turn, stopped)
+
+
+def stop_after_all(turn: Transaction, mission: Mission, event: Planned) -> None:
+    """Take a sentence that orders no step for the stop that it was."""
+    plan = event.plan
+    cancels = isinstance(plan, StepPlan) and plan.does is PlanRole.CANCEL
+    if cancels and ends_goal(mission.words):
+        end_paused(turn, mission.interrupted)
+    own = words_of(plan) if event.brain is None else None  # the planner's own, as it was told
+    also = own or _tell_rest(turn, mission, plan)
+    end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True, also=also)
+
+
+def tell_left(rest: str) -> Bilingual | None:
+    """Say that what followed a stop in the same breath was not done; None: nothing did."""
+    return say("goal.rest_left", text=_short(rest)) if rest else None
+
+
+def _tell_rest(turn: Transaction, mission: GivenOrder, plan: Plan | None) -> Bilingual | None:
+    """Say what became of the words behind a stop, of which no step has come."""
+    rest = parse(mission.text).behind_stop
+    if rest and isinstance(plan, AnswerPlan | Refuse):
+        return words_of(plan)
+    if rest and turn.book.queue and _says_go_on(rest):  # not with what was just stopped
+        end_paused(turn, mission.interrupted)
+        waiting = turn.book.missions[turn.book.queue[0]]
+        return say("goal.rest_go_on", text=_short(waiting.text))
+    return tell_left(rest)
+
+
+def _says_go_on(rest: str) -> bool:
+    """Tell whether words begin as an order to go on: "go on with the others"."""
+    words = [*rest] if has_chinese(rest) else rest.split()
+    joint = "" if has_chinese(rest) else " "
+    return any(isinstance(parse(joint.join(words[:n])).intent, ResumeCommand) for n in (1, 2, 3))
+
+
+def _short(text: str) -> str:
+    return text[:60]
+
+
+def corrects(turn: Transaction, mission: Mission) -> bool:
+    """Tell whether a sentence that has stopped a goal puts another drive in its place."""
+    stopped = turn.mission(mission.interrupted)
+    words = parse(mission.text).behind_stop or mission.words  # the stop itself takes nothing back
+    return stopped is not None and bool(stopped.steps) and takes_back(words)
+
+
+def ask_what_was_meant(book: MissionState, mission: GivenOrder) -> Bilingual:
+    """Ask whether a sentence with a stop word in it was an order to do something."""
+    told, text = stop_told(book), _short(mission.text)
+    return say("goal.doubtful_stop", told=told, text=text)

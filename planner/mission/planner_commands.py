@@ -37,8 +37,8 @@ from planner.mission import events
 from planner.mission.agents import NEEDED, hold_to_agent, is_agents, may_say
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
-from planner.mission.fact_commands import FactCommands
 from planner.mission.follow_up import last_orders
+from planner.mission.memory_lookup import FactCommands
 from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
@@ -54,8 +54,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from planner.mission.events import Command, Submitted
-    from planner.mission.goal_book import GoalBook
-    from planner.mission.memory_lookup import MemoryLookup
+    from planner.mission.memory_lookup import GoalBook, MemoryLookup
     from planner.mission.standing_goals import OrderDesk
     from planner.mission.state import Mission, MissionState
     from planner.mission.tasks import Think

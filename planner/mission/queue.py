@@ -10,27 +10,13 @@ answer, too.
 from __future__ import annotations
 
 from planner.language.catalogue import message
-from planner.mission.activity import (
-    TIMED,
-    Activity,
-    AskingImage,
-    Driving,
-    Observing,
-    Thinking,
-)
+from planner.mission.activity import TIMED, Activity, AskingImage, Driving, Observing, Thinking
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended_outcome, failure
 from planner.mission.state import AGENT_SOURCE, GivenOrder, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
-from planner.plan import (
-    Bilingual,
-    Code,
-    GoalState,
-    Outcome,
-    PauseReason,
-    StepState,
-)
+from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState
 from planner.skills.state_base import SkillStateBase
 
 PARDON_S = 2.0
@@ -288,3 +274,19 @@ def note_step(turn: Transaction, mission: Mission, **changes: object) -> Mission
     steps = list(mission.plan.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
     return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
+
+
+def decline(turn: Transaction, mission: Mission, said: Bilingual) -> None:
+    """End a goal where the robot stands; a question that was answered is over, the rest skipped."""
+    if turn.book.running == mission.id:
+        mission = settle_activity(turn) or mission
+    if (
+        mission.current_step is not None
+        and mission.current_step.kind == "ask"
+        and mission.current_step.answer is not None
+    ):
+        mission = note_step(turn, mission, state=StepState.SUCCEEDED)
+    now_unix_s = turn.now_s + turn.book.wall_offset_s
+    outcome = ended_outcome(turn.book.facts, mission, turn.book.status, now_unix_s,
+                    code=Code.DECLINED, said=said)  # fmt: skip
+    finish(turn, mission, PersonCause.DECLINES, outcome, Code.DECLINED.value)

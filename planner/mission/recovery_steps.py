@@ -14,9 +14,7 @@ from planner.mission.account import place_name
 from planner.mission.activity import Driving, Manoeuvre, RoutePurpose
 from planner.mission.bridge_status import standing
 from planner.mission.events import Surveyed
-from planner.mission.legs import ask_route
-from planner.mission.obstruction_text import tell_obstruction
-from planner.mission.occupied_goal import look_for_room
+from planner.mission.legs import ask_route, look_for_room
 from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
@@ -36,6 +34,7 @@ from planner.mission.recovery import (
     turn_out,
     wait_s,
 )
+from planner.mission.spoken_status import tell_obstruction
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction

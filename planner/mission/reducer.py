@@ -1,14 +1,16 @@
 """Advance the missions of one robot by one event. Pure: no clock, no IO, no chance, no ids minted.
 
 Laws, each held by a test: never two missions run; nothing moves or speaks before the journal holds
-its beginning; after a restart nothing moves until a person acts; a stop ends all streaming at once.
-What the bridge should be asked for is a level, read from the book by ``motion_request``.
+its beginning; after a restart nothing moves until a person acts; a stop ends all streaming at once;
+a goal that still names a forgotten place ends at once, typed, and a leg to a place that was moved
+is laid anew. What the bridge should be asked for is a level, read from the book by
+``motion_request``.
 """
 
 from __future__ import annotations
 
+from planner.language.catalogue import list_names, message
 from planner.mission.activity import AskingImage, Driving
-from planner.mission.allowed_commands import refusal
 from planner.mission.effects import STAND, AskBrain, Effect, MotionRequest
 from planner.mission.events import (
     Cancel,
@@ -49,19 +51,27 @@ from planner.mission.goal_lifecycle import (
     take_plan,
 )
 from planner.mission.leg_routes import on_routed
-from planner.mission.make_way import make_way
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import on_recalled, on_sight, on_told, on_tool_answered
-from planner.mission.places_changed import on_known
 from planner.mission.plan_roles import change_speed
-from planner.mission.queue import cancel, reorder
+from planner.mission.queue import cancel, end_running, finish, reorder, settle_activity
 from planner.mission.recovery_steps import on_survey
-from planner.mission.route_doubts import on_closing_in, on_doubted, on_oncoming
-from planner.mission.state import MissionState
+from planner.mission.route_doubts import make_way, on_closing_in, on_doubted, on_oncoming
+from planner.mission.state import Mission, MissionState
 from planner.mission.status_monitor import on_status, on_tick
-from planner.mission.step_execution import speak_if_safe, start_next
+from planner.mission.step_execution import begin_step, speak_if_safe, start_next
 from planner.mission.transaction import Transaction
-from planner.plan import NEEDS_CAMERA, NEEDS_DETECTOR
+from planner.mission.transitions import GoalFact, refusal
+from planner.plan import (
+    NEEDS_CAMERA,
+    NEEDS_DETECTOR,
+    Bilingual,
+    Code,
+    Outcome,
+    StepRecord,
+    StepState,
+)
+from planner.site.site_view import SiteView
 from planner.skills.object_matching import names_any
 
 __all__ = ["AskBrain", "advance", "motion_request"]
@@ -207,3 +217,53 @@ def _command(turn: Transaction, event: Command) -> None:
             reorder(turn, event.id, event.before)
         case ChangeSpeed():
             change_speed(turn, mission, slower=event.slower)
+
+
+GONE = "place_gone"
+_AHEAD = (StepState.PENDING, StepState.RUNNING)
+
+
+def on_known(turn: Transaction, facts: SiteView) -> None:
+    """Let the book know these places from now on."""
+    before = turn.book.facts
+    turn.set(facts=facts)
+    for mission in tuple(turn.book.missions.values()):
+        gone = _find_lost(mission, before, facts)
+        if gone is not None:
+            _end(turn, mission, before.targets[gone].name, facts)
+    _lay_anew(turn, before)
+
+
+def _find_lost(mission: Mission, before: SiteView, now: SiteView) -> str | None:
+    """Return a place that a goal still has to visit and that is no more, or None."""
+    if mission.has_ended:
+        return None
+    again = any(s.kind == "repeat" and s.state is StepState.RUNNING for s in mission.steps_ahead)
+    ahead = (step for step in mission.steps_ahead if again or step.state in _AHEAD)
+    named = (place for step in ahead for place in _list_places(step))
+    return next((p for p in named if p in before.targets and p not in now.targets), None)
+
+
+def _list_places(step: StepRecord) -> tuple[str, ...]:
+    return (step.place,) if step.place else step.places
+
+
+def _end(turn: Transaction, mission: Mission, name: Bilingual, facts: SiteView) -> None:
+    known = list_names(target.name for target in facts.targets.values())
+    said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
+    if turn.book.running == mission.id:
+        end_running(turn, GoalFact.PLACE_GONE, Code.UNKNOWN_PLACE, GONE, said=said)
+        return
+    outcome = Outcome(code=Code.UNKNOWN_PLACE, message=said)
+    finish(turn, mission, GoalFact.PLACE_GONE, outcome, GONE)
+
+
+def _lay_anew(turn: Transaction, before: SiteView) -> None:
+    """Begin the running step again where its place is another point now."""
+    leg = turn.driving
+    if turn.running is None or leg is None or leg.act.target is None:
+        return
+    old, new = before.targets.get(leg.act.target), turn.book.facts.targets.get(leg.act.target)
+    if old is not None and new is not None and old.pose != new.pose:
+        settle_activity(turn)
+        begin_step(turn)

@@ -6,13 +6,7 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
-from planner.mission.activity import (
-    AskingImage,
-    Driving,
-    Observing,
-    Retrying,
-    RoutePurpose,
-)
+from planner.mission.activity import AskingImage, Driving, Observing, Retrying, RoutePurpose
 from planner.mission.bridge_status import (
     GATES,
     SILENT_SECTOR,
@@ -24,8 +18,7 @@ from planner.mission.bridge_status import (
     shows,
     standing,
 )
-from planner.mission.exploration import reconsider_viewpoint
-from planner.mission.leg_routes import on_arrival
+from planner.mission.leg_routes import on_arrival, reconsider_viewpoint
 from planner.mission.legs import (
     abandon_route,
     ask_route,
@@ -43,12 +36,7 @@ from planner.mission.perception_events import (
     stand_while_blind,
 )
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
-from planner.mission.recovery_steps import (
-    leave_silence,
-    note_unblocked,
-    recover,
-    watch_manoeuvre,
-)
+from planner.mission.recovery_steps import leave_silence, note_unblocked, recover, watch_manoeuvre
 from planner.mission.step_execution import begin_step, end_wait_if_due
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction

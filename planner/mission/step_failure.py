@@ -10,13 +10,11 @@ from __future__ import annotations
 from planner.language.catalogue import say
 from planner.mission.account import BACK
 from planner.mission.activity import Retrying, Thinking
-from planner.mission.conversation import situation_of
-from planner.mission.declined_goals import decline
+from planner.mission.conversation import exchanges_of, list_observations, situation_of
 from planner.mission.effects import AskBrain
-from planner.mission.observations import exchanges_of, list_observations
 from planner.mission.outcomes import failure, spot_at
 from planner.mission.plan_walk import catch
-from planner.mission.queue import end_running, note_step, settle_activity
+from planner.mission.queue import decline, end_running, note_step, settle_activity
 from planner.mission.recovery import FRESH
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from planner.mission.allowed_commands import ALLOWED, refusal
 from planner.mission.events import Cancel, ChangeSpeed, Move, Reply
 from planner.mission.reducer import advance
 from planner.mission.state import Mission, MissionState
+from planner.mission.transitions import ALLOWED, refusal
 from planner.plan import GoalState, Language
 from tests.planner.mission.fakes import FACTS
 

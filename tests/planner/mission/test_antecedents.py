@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from planner.language.sentence import parse
-from planner.mission.departure import LEANS_S
 from planner.mission.events import Planned, Submitted
+from planner.mission.follow_up import LEANS_S
 from planner.mission.reducer import advance
 from planner.mission.state import MissionState
 from planner.plan import Find, GoalState, GoTo, Look, Patrol, Recall, StepPlan

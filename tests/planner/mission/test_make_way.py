@@ -5,8 +5,8 @@ from __future__ import annotations
 from planner.mission.effects import AskRoute
 from planner.mission.events import Oncoming
 from planner.mission.leg_routes import HOLDS_S
-from planner.mission.make_way import AGAIN_S, NEAR_M
 from planner.mission.recovery import PASSING_S, WIDE_S
+from planner.mission.route_doubts import AGAIN_S, NEAR_M
 from planner.navigation.route import WIDE_M
 from planner.skills import Way
 from tests.planner.mission.driving import SUCCEEDED, driving

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from planner.mission.obstruction_text import spot_of, tell_obstruction, tell_occupied
 from planner.mission.recovery import ShutWay
+from planner.mission.spoken_status import spot_of, tell_obstruction, tell_occupied
 from planner.plan import Bilingual
 from tests.planner.mission.fakes import FACTS, room
 

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from planner.mission.activity import RouteDoubt
 from planner.mission.effects import AskRoute
 from planner.mission.events import RouteDoubted
-from planner.mission.obstruction_text import tell_doubt
 from planner.mission.route_doubts import (
     BENT,
     DOUBTED,
@@ -25,6 +24,7 @@ from planner.mission.route_doubts import (
     RIGHT,
     SETTLE_S,
 )
+from planner.mission.spoken_status import tell_doubt
 from tests.laws import at_least
 from tests.planner.mission.driving import RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import FACTS

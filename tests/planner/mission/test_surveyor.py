@@ -11,7 +11,7 @@ import pytest
 from planner.bridge_client import Aged
 from planner.mission.engine import Leg
 from planner.mission.events import Surveyed
-from planner.mission.surveyor import EVERY_S, FRESH_S, Surveyor
+from planner.mission.scan_sender import EVERY_S, FRESH_S, Surveyor
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import is_wide
 from tests.planner.mission.driving import driving
