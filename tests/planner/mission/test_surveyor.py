@@ -11,7 +11,7 @@ import pytest
 from planner.bridge_client import Aged
 from planner.mission.engine import Leg
 from planner.mission.events import Surveyed
-from planner.mission.scan_sender import EVERY_S, FRESH_S, Surveyor
+from planner.mission.scan_sender import EVERY_S, SIGHT_S, Surveyor
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import is_wide
 from tests.planner.mission.driving import driving
@@ -76,7 +76,7 @@ def test_a_drive_that_is_not_blocked_an_old_scan_and_an_idle_robot_are_told_noth
     idle = world.book
     leg = blocked(world)
     assert surveyor(FakeLink()).survey(idle, None, 10.0) is None
-    assert surveyor(FakeLink(age_s=FRESH_S + 0.1)).survey(world.book, leg, 10.0) is None
+    assert surveyor(FakeLink(age_s=SIGHT_S + 0.1)).survey(world.book, leg, 10.0) is None
     assert surveyor(FakeLink(age_s=float("nan"))).survey(world.book, leg, 10.0) is None
     world.bridge.blocked = False
     world.run(0.1)
