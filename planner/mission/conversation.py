@@ -39,13 +39,12 @@ _UNSEEN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.RUNNING})
 
 def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situation:
     """Return where things stand for a brain that thinks about this goal."""
-    status, running = book.status, book.missions.get(book.running or "")
-    pose = status.base_in_map if status is not None else None
+    status, pose, running = book.status, book.pose, book.running_goal
     waiting = [i for i in book.queue if i != mission.id]
     own = running is None or running.id == mission.id
     return Situation(
         battery=status.drive.battery if status is not None else None,
-        room=spot_at(book.facts, pose).room if pose is not None else None,
+        room=spot_at(book.facts, pose).room,
         place=_place_near(book.facts, pose) if pose is not None else None,
         heading_deg=round(degrees(pose.yaw_rad)) if pose is not None else None,
         running=None if own or running is None else running.text[:_ORDER],

@@ -143,7 +143,7 @@ class Engine:
 
     def _speed_share(self) -> float:
         """Return the share of the planned speeds that is driven: less near another robot."""
-        mission = self.book.missions.get(self.book.running or "")
+        mission = self.book.running_goal
         share = mission.speed_share if mission is not None else 1.0
         return min(share, meeting_share(self.book))
 

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from planner.language.commands import Intent
     from planner.language.sentence import SaidSentence
     from planner.mission.state import Mission, MissionState
+    from wire import Pose2
 
 
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
@@ -214,7 +215,7 @@ def person_of(last: Mission) -> str | None:
 
 def _turned_rad(book: MissionState, last: GivenOrder) -> float:
     """Return how far a turn under way has come; 0 where that is unknown."""
-    here = book.status.base_in_map if book.status is not None else None
+    here = book.pose
     if here is None or last.accepted_at is None:
         return 0.0
     return abs((here.yaw_rad - last.accepted_at[2] + pi) % (2.0 * pi) - pi)
@@ -303,15 +304,14 @@ Point = tuple[float, float, float]
 """x [m], y [m], yaw [rad] in ``map``."""
 
 
-def find_robot(book: MissionState) -> Point | None:
-    """Return where the bridge's newest status says that the robot stands."""
-    pose = book.status.base_in_map if book.status is not None else None
+def as_point(pose: Pose2 | None) -> Point | None:
+    """Return a pose as a goal's record has it."""
     return (pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None
 
 
 def departure_of(book: MissionState, now_s: float) -> Point | None:
     """Return where the robot stood when the order was given that led it away from there."""
-    here = find_robot(book)
+    here = book.pose
     if here is None or not now_s - book.status_s <= OLD_POSE_S:
         return None
     now_unix_s = now_s + book.wall_offset_s
@@ -324,7 +324,7 @@ def departure_of(book: MissionState, now_s: float) -> Point | None:
             return None
         if not now_unix_s - order.created_unix_s <= LEANS_S:
             return None
-        near = hypot(here[0] - begin[0], here[1] - begin[1]) <= AWAY_M
+        near = hypot(here.x_m - begin[0], here.y_m - begin[1]) <= AWAY_M
         if not (near and order.has_ended and order.metres <= DRIVEN_M):
             return begin
     return None

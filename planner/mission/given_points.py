@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Protocol
 
 from maps.grid import FREE, UNKNOWN
 from planner.bridge_client import Aged
-from planner.language.catalogue import message
 from planner.language.place_lists import rejection_outcome
 from planner.language.plan_words import tell_steps
 from planner.mission.agents import is_agents
 from planner.mission.bridge_status import standing
 from planner.mission.events import Planned, Submitted
+from planner.mission.outcomes import plain_outcome
 from planner.mission.reception import receive_points
 from planner.mission.tasks import RouteService
 from planner.navigation import RouteFailure, RouteRequest
@@ -159,7 +159,7 @@ def _tell(code: Code, point: GoToPose, refused: PlaceRefusal | None = None) -> O
     facts = {"why": refused.why} if code is Code.POINT_UNCHECKED and refused is not None else {}
     named = "" if code is Code.POINT_OF_OTHER_MAP else f"({point.x_m:.2f}, {point.y_m:.2f})"
     point_named = {"point": named} if named else {}
-    return Outcome(code=code, message=message(code, **point_named, **facts))
+    return plain_outcome(code, **point_named, **facts)
 
 
 MAX_STATUS_AGE_S = 0.5

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from planner.language.catalogue import join, message, say
+from planner.language.catalogue import join, say
 from planner.language.sentence import parse
 from planner.mission.activity import Thinking
 from planner.mission.antecedents import complete_order
 from planner.mission.conversation import exchanges_of, situation_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Restarted, Submitted
-from planner.mission.follow_up import departure_of, find_robot, newest_order, way_back_of
+from planner.mission.follow_up import as_point, departure_of, newest_order, way_back_of
 from planner.mission.open_questions import (
     ask_anew,
     ask_plainly,
@@ -27,7 +27,7 @@ from planner.mission.open_questions import (
     tell_offer,
     waiting_since,
 )
-from planner.mission.outcomes import spot_at
+from planner.mission.outcomes import plain_outcome, spot_at
 from planner.mission.plan_check import UNASKED, ask_for_motion, unwalkable
 from planner.mission.plan_roles import (
     ask_what_was_meant,
@@ -92,14 +92,14 @@ def submit(turn: Transaction, event: Submitted) -> None:
         acknowledge_hold(turn)
     if not (event.stop or event.local):
         make_room(turn, event.text)
-    order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
+    order, now_unix_s, here = turn.book.order + 1, turn.now_unix_s, turn.book.pose
     turn.set(order=order)
     mission = Mission(
         id=event.id, order=order, text=event.text, changed=event.changed, points=event.points,
         language=event.language, state=FIRST, confirm=event.confirm, replace=event.replace,
         first=event.first, doubtful_stop=event.doubtful_stop, interrupted=event.interrupts,
         given_under_hold=hold_now(turn, event.source), source=event.source, by=event.by,
-        map_id=turn.book.facts.map_id, accepted_at=find_robot(turn.book),
+        map_id=turn.book.facts.map_id, accepted_at=as_point(here),
         departed_at=departure_of(turn.book, turn.now_s),
         created_unix_s=now_unix_s, updated_unix_s=now_unix_s,
     )  # fmt: skip
@@ -148,8 +148,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         stop_after_all(turn, mission, event)
         return
     if plan is None:
-        unsaid = message(Code.BAD_PLAN, why=say("plan.no_answer"))
-        outcome = event.failure or Outcome(code=Code.BAD_PLAN, message=unsaid)
+        outcome = event.failure or plain_outcome(Code.BAD_PLAN, why=say("plan.no_answer"))
         unavailable = outcome.code is Code.MODEL_UNAVAILABLE
         mission = turn.put(mission, brain=event.brain)
         cause = BrainCause.FAILS if unavailable else BrainCause.REFUSES
@@ -163,9 +162,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         close_older(turn, mission)
     match plan:
         case AnswerPlan():
-            words = message(Code.ANSWERED, text=plan.text)
-            outcome = Outcome(code=Code.ANSWERED, message=words)
-            finish(turn, mission, BrainCause.ANSWERS, outcome)
+            answer = plain_outcome(Code.ANSWERED, text=plan.text)
+            finish(turn, mission, BrainCause.ANSWERS, answer)
         case Refuse():
             told = go_on_told(turn.book, plan.reason, turn.now_s)
             outcome = Outcome(code=plan.code, message=told)

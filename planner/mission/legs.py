@@ -48,10 +48,9 @@ def ask_route(
     turn: Transaction, purpose: RoutePurpose = RoutePurpose.LEG, *, keep_right_m: float = 0.0
 ) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
-    mission, leg, status = turn.running, turn.driving, turn.book.status
+    mission, leg, start = turn.running, turn.driving, turn.book.pose
     if mission is None or leg is None:
         return
-    start = status.base_in_map if status is not None else None
     if start is None:
         turn.change(retry_s=turn.now_s + RETRY_S)
         return
@@ -65,7 +64,7 @@ def ask_route(
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
     turn.change(ticket=ticket, purpose=purpose, retry_s=None, route_when_standing=False)
-    shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way in _ROUND else ()
+    shut = shut_now(record, turn.now_unix_s) if way in _ROUND else ()
     seen = purpose is RoutePurpose.DETOUR or way is Way.STRAIGHT or bool(shut)
     heading = leg.act.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
@@ -81,7 +80,7 @@ def ask_route(
 
 def take_short(turn: Transaction, leg: Driving, short_m: float) -> None:
     """Judge a straight way that ends early: under way something may leave again, at first not."""
-    pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    pose = turn.book.pose
     if leg.leg is not None or leg.purpose is RoutePurpose.DETOUR or pose is None:
         detour_failed(turn, leg)
     else:
@@ -230,12 +229,8 @@ def look_for_room(turn: Transaction, mission: Mission, leg: Driving) -> None:
 
 def give_up_goal(turn: Transaction, mission: Mission, leg: Driving) -> None:
     """Fail the step, with how near the robot came."""
-    pose = turn.book.status.base_in_map if turn.book.status is not None else None
-    near_m = _away_m(pose, leg.act.goal) if pose is not None else 0.0
+    pose, goal = turn.book.pose, leg.act.goal
+    near_m = hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m) if pose is not None else 0.0
     name = place_name(turn.book.facts, mission, mission.current_step)
     said = tell_occupied(name, near_m)
     fail_step(turn, Fail(Code.GOAL_OCCUPIED, "goal_occupied", said))
-
-
-def _away_m(pose: Pose2, goal: Pose2) -> float:
-    return hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m)

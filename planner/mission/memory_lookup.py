@@ -142,7 +142,7 @@ class MemoryLookup:
 
 def step_kind(book: MissionState) -> str:
     """Return the kind of the step that is under way; empty where none is."""
-    running = book.missions.get(book.running or "")
+    running = book.running_goal
     step = running.current_step if running is not None else None
     return step.kind if step is not None else ""
 
@@ -256,9 +256,8 @@ class FactCommands:
 
     def _find_room(self) -> str | None:
         """Return the room that the robot is in."""
-        status = self._loop.book.status
-        pose = status.base_in_map if status is not None else None
-        return spot_at(self._loop.book.facts, pose).room if pose is not None else None
+        book = self._loop.book
+        return spot_at(book.facts, book.pose).room
 
     async def _forget(self, recollection: Recollection, intent: ForgetFacts) -> AnswerPlan:
         kinds = ((FACT,) if intent.told else ()) + ((THING, PERSON) if intent.seen else ())

@@ -15,7 +15,7 @@ from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
 from planner.language.stop import is_stop
-from planner.mission.outcomes import ended_outcome, moves
+from planner.mission.outcomes import ended_outcome, moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.queue import (
     clear_hold,
@@ -111,7 +111,7 @@ def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) 
         asked=mission.outcome.message if mission.outcome is not None else None,
         said=None if said is None else said[:MAX_ANSWER],
         by=by,
-        unix_s=turn.now_s + turn.book.wall_offset_s,
+        unix_s=turn.now_unix_s,
     )
     answers = (*mission.answers, answer)[-MAX_ANSWERS:]
     return turn.put(mission, answers=answers, given_under_hold=hold_now(turn, mission.source))
@@ -231,7 +231,7 @@ def _offer_sure_reading(turn: Transaction, mission: Mission) -> bool:
     if same or unwalkable(turn.book, mission, sure.steps) is not None:
         return False
     why = say("confirmation.would", deed=whole_deed(turn.book.facts, sure.steps))
-    said = Outcome(code=Code.CONFIRM, message=message(Code.CONFIRM, why=why))
+    said = plain_outcome(Code.CONFIRM, why=why)
     turn.put(mission, plan=sure, sure=None, reason="new_plan", outcome=said)
     return True
 
@@ -324,7 +324,4 @@ def _repeat_question(mission: Mission) -> Bilingual:
 def _end(
     turn: Transaction, mission: Mission, said: Bilingual, cause: GoalFact, reason: str
 ) -> None:
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
-    outcome: Outcome = ended_outcome(turn.book.facts, mission, turn.book.status, now_unix_s,
-                             code=Code.NO_ANSWER, said=said)  # fmt: skip
-    finish(turn, mission, cause, outcome, reason)
+    finish(turn, mission, cause, ended_outcome(turn, mission, Code.NO_ANSWER, said), reason)

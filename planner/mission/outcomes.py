@@ -12,17 +12,11 @@ from planner.language.formatting import definite
 from planner.language.questions import looks_round
 from planner.mission.account import MOTION, account, place_name
 from planner.mission.state import GivenOrder, Mission, Progress
-from planner.plan import (
-    Bilingual,
-    Code,
-    Outcome,
-    Spot,
-    StepRecord,
-    StepState,
-)
+from planner.mission.transaction import Transaction
+from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState
 from planner.site.polygon import contains
 from planner.site.site_view import SiteView
-from wire import Pose2, Status
+from wire import Pose2
 
 AHEAD_M = 1.0
 """What lies so far before a camera fills its picture."""
@@ -92,14 +86,13 @@ def limits(mission: Progress) -> tuple[str, ...]:
     return tuple(name for _, name in named[:MAX_LIMITS_NAMED])
 
 
+def plain_outcome(code: Code, **facts: str | float | Bilingual) -> Outcome:
+    """Return a code with its own sentence."""
+    return Outcome(code=code, message=message(code, **facts))
+
+
 def ended_outcome(
-    facts: SiteView,
-    mission: Mission,
-    status: Status | None,
-    now_unix_s: float,
-    *,
-    code: Code,
-    said: Bilingual | None,
+    turn: Transaction, mission: Mission, code: Code, said: Bilingual | None
 ) -> Outcome:
     """Return the outcome of a mission that had begun: each step's result, and the figures.
 
@@ -108,15 +101,15 @@ def ended_outcome(
     drives = [s for s in mission.steps if moves(s)]
     tried = [s for s in drives if s.state not in (StepState.PENDING, StepState.SKIPPED)]
     last = tried[-1] if tried else (drives[0] if drives else None)
-    pose = status.base_in_map if status is not None else None
+    facts = turn.book.facts
     return Outcome(
         code=code,
         message=account(facts, mission, code, said),
         asked=asked_spot(facts, mission, last) if last is not None else None,
         reached=(last.reached if last is not None and last.reached else None)
-        or (spot_at(facts, pose) if tried else None),
+        or (spot_at(facts, turn.book.pose) if tried else None),
         metres=round(mission.metres, 3),
-        seconds=round(max(0.0, now_unix_s - mission.created_unix_s), 3),
+        seconds=round(max(0.0, turn.now_unix_s - mission.created_unix_s), 3),
         limited_by=limits(mission),
     )
 

@@ -19,7 +19,7 @@ from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
 from planner.mission.outcomes import looks_into
 from planner.mission.queue import settle_activity
-from planner.mission.scene import pose_now, scene_of
+from planner.mission.scene import scene_of
 from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -137,7 +137,7 @@ def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     if mission is not None and isinstance(then, PatrolState):
         stop = len(then.stops)
         place = mission.steps[mission.step].places[stop]
-        inward = looks_into(turn.book.facts, place, pose_now(turn))
+        inward = looks_into(turn.book.facts, place, turn.book.pose)
         turn.emit(SavePicture(mission.id, mission.step, stop, place, gaze.look_seq, inward))
     faced = then.faced if isinstance(then, LookState) else ()
     if mission is not None and faced and turn.book.eyes.model:

@@ -18,6 +18,7 @@ from planner.language.catalogue import list_names, message, say, say_or_quote
 from planner.language.formatting import angle, metres
 from planner.language.questions import find_elsewhere
 from planner.language.room_names import sorts_of_room
+from planner.mission.outcomes import plain_outcome
 from planner.mission.scene import name_deed, name_sought
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
@@ -77,8 +78,7 @@ def unwalkable(
 def _unknown_place(book: MissionState, name: str) -> Outcome:
     """Return that a place is unknown, with those that are known."""
     known = list_names(target.name for target in book.facts.targets.values())
-    said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
-    return Outcome(code=Code.UNKNOWN_PLACE, message=said)
+    return plain_outcome(Code.UNKNOWN_PLACE, name=name, near="", known=known)
 
 
 def _find_unknown_place(

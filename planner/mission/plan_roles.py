@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 
-from planner.language.catalogue import join, list_names, message, say
+from planner.language.catalogue import join, list_names, say
 from planner.language.commands import ResumeCommand
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.clause_moods import ClauseMood
@@ -21,6 +21,7 @@ from planner.language.motion_guard.mentioned_names import label_named, places_na
 from planner.language.sentence import parse
 from planner.mission.events import Planned
 from planner.mission.open_questions import WAITS, take_sentence
+from planner.mission.outcomes import plain_outcome
 from planner.mission.queue import cancel, finish
 from planner.mission.spoken_status import stop_told
 from planner.mission.state import GivenOrder, Mission, MissionState
@@ -157,8 +158,7 @@ def _ask(turn: Transaction, mission: Mission, question: Bilingual, *offers: Opti
 
 
 def _answer(turn: Transaction, mission: Mission, said: Bilingual) -> None:
-    text = message(Code.ANSWERED, text=said)
-    finish(turn, mission, BrainCause.ANSWERS, Outcome(code=Code.ANSWERED, message=text))
+    finish(turn, mission, BrainCause.ANSWERS, plain_outcome(Code.ANSWERED, text=said))
 
 
 def find_asking(turn: Transaction, mission: Mission) -> Mission | None:

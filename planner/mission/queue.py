@@ -9,10 +9,9 @@ answer, too.
 
 from __future__ import annotations
 
-from planner.language.catalogue import message
 from planner.mission.activity import TIMED, Activity, AskingImage, Driving, Observing, Thinking
 from planner.mission.effects import ClearHold, DropBrain
-from planner.mission.outcomes import ended_outcome, failure
+from planner.mission.outcomes import ended_outcome, failure, plain_outcome
 from planner.mission.state import AGENT_SOURCE, GivenOrder, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
@@ -170,9 +169,7 @@ def yield_robot(
 
 def _hint(reason: str) -> Outcome | None:
     """Tell a person what a paused goal needs, where the reason alone doesn't."""
-    if reason != "disarmed":
-        return None
-    return Outcome(code=Code.NOT_ARMED, message=message(Code.NOT_ARMED))
+    return plain_outcome(Code.NOT_ARMED) if reason == "disarmed" else None
 
 
 def pause_planning(turn: Transaction, mission: Mission, reason: str) -> None:
@@ -194,10 +191,7 @@ def end_running(
     if mission is None:
         return
     said = said or failure(turn.book.facts, mission, mission.current_step, code, row)
-    finish(turn, mission, cause, ended_outcome(
-        turn.book.facts, mission, turn.book.status, turn.now_s + turn.book.wall_offset_s,
-        code=code, said=said,
-    ), reason)  # fmt: skip
+    finish(turn, mission, cause, ended_outcome(turn, mission, code, said), reason)
 
 
 def finish(
@@ -232,12 +226,9 @@ def cancel(turn: Transaction, mission: Mission) -> None:
     if turn.book.running == mission.id:
         end_running(turn, PersonCause.CANCELS, Code.CANCELLED)
         return
-    outcome = Outcome(code=Code.CANCELLED, message=message(Code.CANCELLED))
+    outcome = plain_outcome(Code.CANCELLED)
     if mission.metres > 0.0:
-        outcome = ended_outcome(
-            turn.book.facts, mission, turn.book.status,
-            turn.now_s + turn.book.wall_offset_s, code=Code.CANCELLED, said=outcome.message,
-        )  # fmt: skip
+        outcome = ended_outcome(turn, mission, Code.CANCELLED, outcome.message)
     finish(turn, mission, PersonCause.CANCELS, outcome)
 
 
@@ -273,7 +264,7 @@ def note_step(turn: Transaction, mission: Mission, **changes: object) -> Mission
         return mission
     steps = list(mission.plan.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
-    return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
+    return turn.put_steps(mission, tuple(steps))
 
 
 def decline(turn: Transaction, mission: Mission, said: Bilingual) -> None:
@@ -286,7 +277,5 @@ def decline(turn: Transaction, mission: Mission, said: Bilingual) -> None:
         and mission.current_step.answer is not None
     ):
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
-    outcome = ended_outcome(turn.book.facts, mission, turn.book.status, now_unix_s,
-                    code=Code.DECLINED, said=said)  # fmt: skip
+    outcome = ended_outcome(turn, mission, Code.DECLINED, said)
     finish(turn, mission, PersonCause.DECLINES, outcome, Code.DECLINED.value)

@@ -54,7 +54,7 @@ def on_survey(turn: Transaction, survey: Surveyed) -> None:
     if mission is None or leg is None:
         return
     seen, record = survey.obstruction, mission.recovery
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
+    now_unix_s = turn.now_unix_s
     for way in record.shut:
         if any(way.obstruction == gone for gone in survey.opened):
             record = note_open(record, way)
@@ -151,8 +151,7 @@ def climb_on(turn: Transaction) -> None:
     A wait ends with a new search; the last one, before giving up, would wait for nothing.
     """
     next_rung(turn)
-    mission, status = turn.running, turn.book.status
-    pose = status.base_in_map if status is not None else None
+    mission, pose = turn.running, turn.book.pose
     if mission is None:
         return
     if pose is None:
@@ -223,7 +222,7 @@ def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRun
 def _turn_to_look(
     turn: Transaction, leg: Driving, rung: LadderRung, part: int, from_rad: float
 ) -> None:
-    here = turn.book.status.base_in_map if turn.book.status is not None else None
+    here = turn.book.pose
     if here is None:
         return
     goal = Pose2(here.x_m, here.y_m, wrap(from_rad + rung.turns_rad[part]))

@@ -100,7 +100,7 @@ def motion_request(book: MissionState) -> MotionRequest:
     A grant may be asked for as soon as a mission that drives has the robot; a leg is streamed only
     once the step's beginning is on disk.
     """
-    mission = book.missions.get(book.running) if book.running is not None else None
+    mission = book.running_goal
     if mission is None or not any(map(moves, mission.steps_ahead)):
         return STAND
     activity = book.activity
@@ -120,7 +120,7 @@ def asked_about_picture(book: MissionState) -> int | None:
 
 def looks(book: MissionState) -> bool:
     """Tell whether the running step needs eyes now."""
-    mission = book.missions.get(book.running) if book.running is not None else None
+    mission = book.running_goal
     step = mission.current_step if mission is not None else None
     waits = step is not None and step.kind == "wait_for" and step.object is not None
     return step is not None and (step.kind in NEEDS_CAMERA or waits)
@@ -131,7 +131,7 @@ def looks_widely(book: MissionState, open_classes: tuple[str, ...]) -> bool:
 
     A question about the picture may be about any of them.
     """
-    mission = book.missions.get(book.running) if book.running is not None else None
+    mission = book.running_goal
     step = mission.current_step if mission is not None else None
     if mission is None or step is None or not open_classes:
         return False

@@ -13,6 +13,7 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, message, say
 from planner.language.questions import looks_round
 from planner.mission.events import Planned
+from planner.mission.outcomes import plain_outcome
 from planner.mission.plan_check import NO_STEPS, UNASKED, ask_for_motion, unwalkable
 from planner.mission.plan_walk import asked_of, close_open
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
@@ -103,8 +104,7 @@ def _same_again(mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | No
     tried = {*mission.tried, fingerprint(mission.steps[mission.step :])}
     if fingerprint(steps) not in tried:
         return None
-    said = message(Code.BAD_PLAN, why=SAME_AGAIN)
-    return Outcome(code=Code.BAD_PLAN, message=said)
+    return plain_outcome(Code.BAD_PLAN, why=SAME_AGAIN)
 
 
 def _no_steps(
@@ -122,8 +122,8 @@ def _no_steps(
     if isinstance(plan, Refuse):
         _end(turn, mission, BrainCause.REFUSES, Outcome(code=plan.code, message=plan.reason))
         return
-    why = message(Code.BAD_PLAN, why=NO_STEPS)
-    _end(turn, mission, GoalFact.STEP_FAILS, failure or Outcome(code=Code.BAD_PLAN, message=why))
+    why = failure or plain_outcome(Code.BAD_PLAN, why=NO_STEPS)
+    _end(turn, mission, GoalFact.STEP_FAILS, why)
 
 
 def _fail_with_advice(turn: Transaction, mission: Mission, why: Outcome, text: Bilingual) -> None:
@@ -197,17 +197,11 @@ def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) 
     if mission.current_step is not None and mission.current_step.kind == "ask":
         deed = first_deed(facts, steps)
         why = None if deed is None else say("confirmation.would", deed=deed)
-        return None if why is None else _confirm(why)
-    if mission.failure is None:
+    elif mission.failure is None:
         return None
-    instead = _elsewhere(facts, mission.steps, steps) or _roaming(mission.steps, steps)
-    if instead is None:
-        return None
-    return _confirm(instead)
-
-
-def _confirm(why: Bilingual) -> Outcome:
-    return Outcome(code=Code.CONFIRM, message=message(Code.CONFIRM, why=why))
+    else:
+        why = _elsewhere(facts, mission.steps, steps) or _roaming(mission.steps, steps)
+    return None if why is None else plain_outcome(Code.CONFIRM, why=why)
 
 
 def _elsewhere(
@@ -218,8 +212,7 @@ def _elsewhere(
     fresh = [p for step in steps for p in _places(facts, step) if p not in known]
     if not fresh:
         return None
-    name = _name(facts, fresh[0])
-    return say("confirmation.elsewhere", name=name)
+    return say("confirmation.elsewhere", name=_name(facts, fresh[0]))
 
 
 def _roaming(before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]) -> Bilingual | None:

@@ -177,20 +177,18 @@ GIVE_WAY = next(rung for rung in LADDER if rung.recovery is Recovery.GIVE_WAY)
 
 def make_way(turn: Transaction, event: Oncoming) -> None:
     """Have a way aside searched before who comes is there."""
-    mission, leg, status = turn.running, turn.driving, turn.book.status
+    mission, leg, pose = turn.running, turn.driving, turn.book.pose
     if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
         return
-    pose = status.base_in_map if status is not None else None
     busy = leg.manoeuvre is not None or leg.ticket is not None or leg.route_when_standing
     if busy or pose is None or leg.act.way is not Way.ROUTE or not is_wide(event.radius_m):
         return
     if not (event.far_m <= NEAR_M and turn.now_s - leg.doubts.made_way_s >= AGAIN_S):
         return
     turn.change(doubts=replace(leg.doubts, made_way_s=turn.now_s))
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
     side = Obstruction(event.seen_m, event.seen_m)
     record = begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
-    record = note_obstruction(record, side, now_unix_s, moves=True, radius_m=event.radius_m)
+    record = note_obstruction(record, side, turn.now_unix_s, moves=True, radius_m=event.radius_m)
     turn.put(mission, recovery=record.model_copy(update={"rung": LADDER.index(GIVE_WAY)}))
     until_s = turn.now_s + GIVE_WAY.seconds
     goal = Pose2(*event.seen_m, 0.0)

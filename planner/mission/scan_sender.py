@@ -203,7 +203,7 @@ class Surveyor:
         None: nobody needs to know, or nothing new is known. Twice a second at most, since this runs
         on the mission's loop (a scan of 360 beams takes about a millisecond).
         """
-        mission, status = book.missions.get(book.running or ""), book.status
+        mission, status = book.running_goal, book.status
         if mission is None or status is None or not isinstance(book.activity, Driving):
             return None
         wanted = status.blocked or bool(mission.recovery.shut)

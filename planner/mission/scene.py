@@ -57,7 +57,7 @@ def scene_of(
     return Scene(
         step=step,
         facts=turn.book.facts,
-        pose=pose_now(turn),
+        pose=turn.book.pose,
         began=Pose2(*mission.began_at) if mission.began_at is not None else None,
         done=mission.done,
         part=mission.part,
@@ -71,7 +71,7 @@ def scene_of(
         spent_s=mission.step_s + max(0.0, turn.now_s - since_s),
         spent_m=mission.step_m + (activity.metres if activity is not None else 0.0),
         answer=answer,
-        unix_s=turn.now_s + turn.book.wall_offset_s,
+        unix_s=turn.now_unix_s,
         local_offset_s=turn.book.local_offset_s,
         upon=upon_yes(turn.book.facts, mission),
         thinks=can_think(turn.book.rules, mission),
@@ -136,11 +136,6 @@ def _ends(facts: SiteView, mission: Mission, step: StepRecord) -> tuple[tuple[fl
     named = (facts.home,) if step.kind == "return_home" else places_of(step)
     targets = (facts.targets[place] for place in named if place in facts.targets)
     return tuple((t.pose.x_m, t.pose.y_m) for t in targets) if moves(step) else ()
-
-
-def pose_now(turn: Transaction) -> Pose2 | None:
-    """Return where the robot is, as the newest status says."""
-    return turn.book.status.base_in_map if turn.book.status is not None else None
 
 
 DO_THAT = say("deed.do_that")

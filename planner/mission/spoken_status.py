@@ -43,7 +43,7 @@ def stop_told(book: MissionState) -> Bilingual:
 
 def go_on_told(book: MissionState, said: Bilingual, now_s: float) -> Bilingual:
     """Say beside a refusal or a question that the robot is still on another goal, where it is."""
-    running = book.missions.get(book.running or "")
+    running = book.running_goal
     if running is None:
         return said
     text = _short(running.text)
@@ -133,7 +133,7 @@ def _motion(status: Status | None, age_s: float) -> Bilingual:
 
 
 def _task(book: MissionState, asking: str) -> Bilingual:
-    running = book.missions.get(book.running or "")
+    running = book.running_goal
     if running is not None:
         return _running(book, running)
     others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]

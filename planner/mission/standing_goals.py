@@ -17,7 +17,7 @@ from planner.mission.effects import AskBrain
 from planner.mission.errors import QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
 from planner.mission.open_questions import has_room
-from planner.mission.outcomes import moves
+from planner.mission.outcomes import moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.state import ORDER_SOURCE, GoalKey, Mission, MissionState
 from planner.mission.transitions import FIRST
@@ -28,7 +28,6 @@ from planner.plan import (
     Code,
     GoalState,
     Language,
-    Outcome,
     Refuse,
     Step,
     StepPlan,
@@ -147,8 +146,7 @@ class StandingGoals:
         if not isinstance(plan, StepPlan):
             return planned
         if plan.does in STEPLESS:
-            why = say("plan.no_steps")
-            said = Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
+            said = plain_outcome(Code.BAD_PLAN, why=say("plan.no_steps"))
             return Planned(planned.id, None, said, planned.brain)
         stand_in = Mission(
             id=goal_id, order=0, text=text, language=language, state=FIRST,

@@ -79,11 +79,10 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
 
 def _take_other_way(turn: Transaction, mission: Mission) -> bool:
     """Go on with what the plan holds for this failure; say if it holds anything."""
-    at = catch(mission.steps, mission.step, turn.now_s + turn.book.wall_offset_s)
-    if at is None or mission.plan is None:
+    at = catch(mission.steps, mission.step, turn.now_unix_s)
+    if at is None:
         return False
-    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": at.row}))
-    to_step(turn, mission, at.index)
+    to_step(turn, turn.put_steps(mission, at.row), at.index)
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
     return True
 
@@ -123,15 +122,14 @@ def _go_back(turn: Transaction, mission: Mission) -> bool:
     pending = (i for i in left if mission.steps[i].state is StepState.PENDING)
     sure = (i for i in pending if _is_sure(mission, i))
     back = next((i for i in sure if mission.steps[i].kind in BACK), None)
-    if back is None or mission.plan is None or mission.failure is None:
+    if back is None or mission.failure is None:
         return False
     skipped = {"state": StepState.SKIPPED, "reason": mission.failure.code.value}
     steps = tuple(
         step.model_copy(update=skipped) if i in left and i != back else step
         for i, step in enumerate(mission.steps)
     )
-    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": steps}))
-    to_step(turn, mission, back)
+    to_step(turn, turn.put_steps(mission, steps), back)
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
     return True
 
