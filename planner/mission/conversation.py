@@ -18,6 +18,7 @@ from planner.language.catalogue import list_names, say
 from planner.language.commands import OutcomeCommand
 from planner.language.formatting import angle, metres
 from planner.language.sentence import parse
+from planner.mission.effects import AskBrain
 from planner.mission.open_questions import WAITS
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_walk import NOT_CHOSEN
@@ -27,6 +28,7 @@ from planner.site.site_view import SiteView
 
 if TYPE_CHECKING:
     from planner.mission.state import GivenOrder, MissionState
+    from planner.mission.transaction import Transaction
     from wire import Pose2
 
 
@@ -55,6 +57,19 @@ def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situatio
         paused=_orders_in(book, mission, GoalState.PAUSED)[: -MAX_QUEUED - 1 : -1],
         question=_question(book, mission),
         recent=_recent(book, mission, now_s + book.wall_offset_s),
+    )
+
+
+def question_of(turn: Transaction, mission: Mission) -> AskBrain:
+    """Return what a brain is asked about a goal, with where things stand."""
+    return AskBrain(
+        *(mission.id, mission.words, mission.language),
+        room=spot_at(turn.book.facts, turn.book.pose).room,
+        order=mission.text,
+        exchanges=exchanges_of(mission),
+        departed=mission.departed_at is not None,
+        situation=situation_of(turn.book, mission, turn.now_s),
+        changed=None if mission.replies else mission.changed,
     )
 
 

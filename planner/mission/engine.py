@@ -11,8 +11,8 @@ from math import atan2, copysign, hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
 from planner.mission.activity import Driving, RouteDoubt
-from planner.mission.effects import AskRoute, Effect, Journal, MotionRequest
-from planner.mission.events import Event, Journalled, Routed, Seen
+from planner.mission.effects import AskRoute, Effect, MotionRequest
+from planner.mission.events import Event, Routed, Seen
 from planner.mission.nav2_pilot import Nav2Pilot, pilot_of
 from planner.mission.reducer import advance, motion_request
 from planner.mission.route_doubts import meeting_share, standing_doubt
@@ -170,10 +170,6 @@ class Engine:
         """
         effects = self._take_route(ask, points, failure, now_s, floor, faces)
         return Output(self._speak(now_s), effects)
-
-    def take_journalled(self, journal: Journal, now_s: float) -> Output:
-        """Take the word that an entry is on disk."""
-        return self.event(Journalled(journal.entry), now_s)
 
     def _advance(self, event: Event, now_s: float) -> tuple[Effect, ...]:
         """Reduce one event; a spin that is asked for needs no router and is answered here."""

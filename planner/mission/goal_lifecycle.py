@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 from planner.language.catalogue import join, say
 from planner.language.sentence import parse
 from planner.mission.activity import Thinking
 from planner.mission.antecedents import complete_order
-from planner.mission.conversation import exchanges_of, situation_of
-from planner.mission.effects import AskBrain
+from planner.mission.conversation import question_of
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import as_point, departure_of, newest_order, way_back_of
 from planner.mission.open_questions import (
@@ -27,7 +28,7 @@ from planner.mission.open_questions import (
     tell_offer,
     waiting_since,
 )
-from planner.mission.outcomes import plain_outcome, spot_at
+from planner.mission.outcomes import plain_outcome
 from planner.mission.plan_check import UNASKED, ask_for_motion, unwalkable
 from planner.mission.plan_roles import (
     ask_what_was_meant,
@@ -122,15 +123,8 @@ def _think_anew(
 
 
 def _think(turn: Transaction, mission: Mission, deed: StepPlan | None = None) -> None:
-    pose = turn.book.status.base_in_map if turn.book.status is not None else None
-    room = spot_at(turn.book.facts, pose).room
-    turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
-                       order=mission.text, exchanges=exchanges_of(mission),
-                       departed=mission.departed_at is not None,
-                       newest=newest_order(turn.book, mission.id, turn.now_s),
-                       situation=situation_of(turn.book, mission, turn.now_s),
-                       changed=None if mission.replies else mission.changed,
-                       deed=deed))  # fmt: skip
+    newest = newest_order(turn.book, mission.id, turn.now_s)
+    turn.emit(dataclasses.replace(question_of(turn, mission), newest=newest, deed=deed))
 
 
 def take_plan(turn: Transaction, event: Planned) -> None:

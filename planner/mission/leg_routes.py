@@ -31,10 +31,10 @@ from planner.mission.outcomes import spot_at
 from planner.mission.queue import note_step, settle_activity
 from planner.mission.recovery import PASSING_S, Recovery, aside_s, passes_m, rung_of
 from planner.mission.recovery_steps import (
-    climb_on,
     end_manoeuvre,
     next_rung,
     note_recovery,
+    skip_rung,
     way_shut,
 )
 from planner.mission.route_doubts import take_doubted
@@ -174,10 +174,8 @@ def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: st
         turn.change(retry_s=turn.now_s + RETRY_S if leg.leg is None else None)
     elif leg.leg is None and _waits_on(turn, mission, leg):
         turn.change(retry_s=turn.now_s + RETRY_S)
-    elif leg.leg is None:
-        climb_on(turn)
     else:
-        next_rung(turn)
+        skip_rung(turn, leg)
 
 
 def _waits_on(turn: Transaction, mission: Progress, leg: Driving) -> bool:

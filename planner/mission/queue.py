@@ -48,26 +48,28 @@ def dequeue(turn: Transaction, mission_id: str) -> None:
 
 def hold_queue(turn: Transaction) -> None:
     """Keep everyone who waits now waiting until a person acts."""
-    for mission_id in turn.book.queue:
-        mission = turn.book.missions[mission_id]
+    for mission in _waiting(turn):
         if not (mission.held and mission.kept):
             turn.put(mission, held=True, kept=True)
 
 
 def release_queue(turn: Transaction) -> None:
     """Let those who were kept waiting take their turns."""
-    for mission_id in turn.book.queue:
-        mission = turn.book.missions[mission_id]
+    for mission in _waiting(turn):
         if mission.held:
             turn.put(mission, held=False, kept=False)
 
 
 def release_answered(turn: Transaction) -> None:
     """Let those take their turns who waited for an answer and for nothing else."""
-    for mission_id in turn.book.queue:
-        mission = turn.book.missions[mission_id]
+    for mission in _waiting(turn):
         if mission.held and not mission.kept:
             turn.put(mission, held=False)
+
+
+def _waiting(turn: Transaction) -> tuple[Mission, ...]:
+    """Return those who wait for the robot, in their order."""
+    return tuple(turn.book.missions[i] for i in turn.book.queue)
 
 
 def hold_now(turn: Transaction, source: str = "") -> str | None:
@@ -162,9 +164,9 @@ def yield_robot(
     """Leave the robot standing and free while a person is asked; queued goals are kept waiting."""
     turn.set(running=None, activity=None)
     turn.move_to(mission, cause, reason=reason, outcome=said)
-    for mission_id in turn.book.queue:
-        if not turn.book.missions[mission_id].held:
-            turn.put(turn.book.missions[mission_id], held=True)
+    for other in _waiting(turn):
+        if not other.held:
+            turn.put(other, held=True)
 
 
 def _hint(reason: str) -> Outcome | None:
@@ -237,8 +239,8 @@ def reorder(turn: Transaction, mission_id: str, before: str | None) -> None:
     others = [i for i in turn.book.queue if i != mission_id]
     at = others.index(before) if before is not None and before in others else len(others)
     turn.set(queue=(*others[:at], mission_id, *others[at:]))
-    for moved in turn.book.queue:  # their positions changed: whoever listens must hear it
-        turn.put(turn.book.missions[moved])
+    for moved in _waiting(turn):  # their positions changed: whoever listens must hear it
+        turn.put(moved)
 
 
 def next_up(turn: Transaction) -> Mission | None:
@@ -250,8 +252,7 @@ def next_up(turn: Transaction) -> Mission | None:
         return None
     if any(m.first and m.state is GoalState.PLANNING for m in turn.book.missions.values()):
         return None  # "forget that, …": the robot stays free for what is thought about
-    waiting = (turn.book.missions[i] for i in turn.book.queue)
-    found = next((m for m in waiting if not m.held), None)
+    found = next((m for m in _waiting(turn) if not m.held), None)
     if found is None or _goes_first(found):
         return found
     thinking = (m for m in turn.book.missions.values() if m.state is GoalState.PLANNING)

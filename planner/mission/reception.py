@@ -117,19 +117,13 @@ def _receive_agent(
     """
     if stop(said, _AtHand(book, now_s)) is not None:
         return Reception(replace(given, stop=True), stops=True)
-    return _receive_plainly(book, given, key, repeats)
+    return receive_points(book, given, key, repeats)
 
 
 def receive_points(
-    book: MissionState, given: Submitted, key: str | None, repeats: Repeats
-) -> Reception:
-    """Return the decision on a goal that was given by points or other steps: no words are read."""
-    return _receive_plainly(book, given, key, repeats)
-
-
-def _receive_plainly(
     book: MissionState, given: Submitted, key: str | None, repeats: Repeats | None
 ) -> Reception:
+    """Return the decision on a goal of which no words are read: it may be given by steps."""
     by_agent = agents.is_agents(given.source)
     if by_agent and given.replace:
         return Reception(given, refused=PersonMissing())

@@ -83,7 +83,7 @@ def recover(turn: Transaction, leg: Driving, status: Status) -> None:
     mission, pose = turn.running, status.base_in_map
     if mission is None or pose is None:
         return
-    record = begin_ladder(mission.recovery, _xy(pose))
+    record = begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
     if record is not mission.recovery:
         mission = turn.put(mission, recovery=record)
         turn.change(rung_since_s=None)
@@ -104,17 +104,14 @@ def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
     and the bridge holds the way again.
     """
     mission, pose = turn.running, status.base_in_map
-    record = turn_out(mission.recovery, _xy(pose)) if mission is not None and pose else None
-    if mission is None or record is None or pose is None:
+    if mission is None or pose is None:
+        return
+    record = turn_out(mission.recovery, (pose.x_m, pose.y_m))
+    if record is None:
         return
     mission = turn.put(mission, recovery=record)
     note_recovery(turn, mission, Recovery.TURN_OUT)
     _turn_to_look(turn, leg, TURN_OUT, 0, pose.yaw_rad)
-
-
-def note_unblocked(turn: Transaction) -> None:
-    """Note that nothing holds the leg now: what stood on its goal has left."""
-    turn.change(occupied_since_s=None)
 
 
 def next_rung(turn: Transaction) -> None:
@@ -200,7 +197,7 @@ def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
     _begin_rung(turn)
 
 
-def _skip_rung(turn: Transaction, leg: Driving) -> None:
+def skip_rung(turn: Transaction, leg: Driving) -> None:
     """Leave a rung out; a leg that streams nothing begins the next one itself."""
     if leg.leg is None:
         climb_on(turn)
@@ -212,7 +209,7 @@ def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRun
     """Stand aside for somebody who walked up; a thing that never moved is not given way to."""
     record = mission.recovery
     if not can_give_way(record) or record.newest is None:
-        _skip_rung(turn, leg)
+        skip_rung(turn, leg)
         return
     update = {"given_way": record.given_way + 1}
     turn.put(mission, recovery=record.model_copy(update=update))
@@ -301,7 +298,3 @@ def way_shut(turn: Transaction, mission: Mission) -> Fail:
         return Fail(Code.BLOCKED, "blocked")
     name = place_name(facts, mission, mission.current_step)
     return Fail(Code.BLOCKED, "blocked", tell_obstruction(facts, newest, name))
-
-
-def _xy(pose: Pose2) -> tuple[float, float]:
-    return pose.x_m, pose.y_m

@@ -19,6 +19,7 @@ from planner.mission.events import (
     Command,
     Confirm,
     Event,
+    Fact,
     Journalled,
     Known,
     Move,
@@ -56,7 +57,7 @@ from planner.mission.perception_events import on_recalled, on_sight, on_told, on
 from planner.mission.plan_roles import change_speed
 from planner.mission.queue import cancel, end_running, finish, reorder, settle_activity
 from planner.mission.recovery_steps import on_survey
-from planner.mission.route_doubts import make_way, on_closing_in, on_doubted, on_oncoming
+from planner.mission.route_doubts import on_way_news
 from planner.mission.state import Mission, MissionState
 from planner.mission.status_monitor import on_status, on_tick
 from planner.mission.step_execution import begin_step, speak_if_safe, start_next
@@ -82,10 +83,10 @@ def advance(
 ) -> tuple[MissionState, tuple[Effect, ...]]:
     """Return the next book and the effects asked of the world. Same arguments, same answer.
 
-    A command that the state doesn't allow changes nothing; ask ``allowed_commands.refusal`` why.
+    A command that the state doesn't allow changes nothing; ask ``transitions.refusal`` why.
     """
     turn = Transaction(book, now_s)
-    if isinstance(event, (Cancel, Pause, Resume, Confirm, Reply, Move, ChangeSpeed)):
+    if isinstance(event, Command):
         _command(turn, event)
     else:
         _fact(turn, event)
@@ -140,26 +141,7 @@ def looks_widely(book: MissionState, open_classes: tuple[str, ...]) -> bool:
     return names_any(step.object, mission.language, book.eyes.classes, open_classes)
 
 
-def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
-    turn: Transaction,
-    event: Submitted
-    | Planned
-    | Routed
-    | RouteDoubted
-    | Oncoming
-    | ClosingIn
-    | Seen
-    | Surveyed
-    | Sighted
-    | Told
-    | Recalled
-    | ToolAnswered
-    | Journalled
-    | Stopped
-    | Restarted
-    | Known
-    | Tick,
-) -> None:
+def _fact(turn: Transaction, event: Fact) -> None:  # noqa: C901, PLR0912  # one case an event
     match event:
         case Seen():
             on_status(turn, event.status, event.off_path, event.left_m)
@@ -177,13 +159,8 @@ def _fact(  # noqa: C901, PLR0912  # one case an event, and nothing else
             turn.set(safe=max(turn.book.safe, min(event.entry, turn.book.written)))
         case Routed():
             on_routed(turn, event)
-        case RouteDoubted():
-            on_doubted(turn, event)
-        case Oncoming():
-            make_way(turn, event)
-            on_oncoming(turn, event)
-        case ClosingIn():
-            on_closing_in(turn, event)
+        case RouteDoubted() | Oncoming() | ClosingIn():
+            on_way_news(turn, event)
         case Surveyed():
             on_survey(turn, event)
         case Planned():

@@ -18,6 +18,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.mission.activity import Driving, Manoeuvre, RouteDoubt, RoutePurpose
+from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
 from planner.mission.legs import ask_route, new_leg
 from planner.mission.recovery import LADDER, Recovery, begin_ladder, note_obstruction
 from planner.navigation.obstruction import Obstruction
@@ -26,7 +27,7 @@ from planner.skills import Way
 from wire import Pose2
 
 if TYPE_CHECKING:
-    from planner.mission.events import ClosingIn, Oncoming, Routed, RouteDoubted
+    from planner.mission.events import Routed
     from planner.mission.state import Mission, MissionState
     from planner.mission.transaction import Transaction
 
@@ -65,13 +66,23 @@ MAX_BENDS = 12
 """In one leg. After that the ladder of recovery alone finds other ways."""
 
 
-def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
-    """Note that the leg's way is closed ahead; have another searched, where that is due."""
+def on_way_news(turn: Transaction, event: RouteDoubted | Oncoming | ClosingIn) -> None:
+    """Take what is seen on the way of the leg that is streamed; of any other leg it is old."""
     mission, leg = turn.running, turn.driving
     if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
         return
-    if leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
+    if isinstance(event, ClosingIn):  # whatever the leg is driven for
+        turn.change(doubts=replace(leg.doubts, closed_in_s=turn.now_s))
+    elif leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
         return
+    elif isinstance(event, RouteDoubted):
+        _doubt(turn, leg, event)
+    elif not _make_way(turn, mission, leg, event):
+        _keep_right(turn, leg, event)
+
+
+def _doubt(turn: Transaction, leg: Driving, event: RouteDoubted) -> None:
+    """Note that the leg's way is closed ahead; have another searched, where that is due."""
     doubt, now_s = leg.doubts.newest, turn.now_s
     lasts = doubt is not None and doubt.leg == event.leg and doubt.code not in _TAKEN
     if doubt is None or not lasts or not now_s - doubt.seen_s <= LASTS_S:
@@ -85,14 +96,9 @@ def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
         ask_route(turn, RoutePurpose.DOUBT)
 
 
-def on_oncoming(turn: Transaction, event: Oncoming) -> None:
+def _keep_right(turn: Transaction, leg: Driving, event: Oncoming) -> None:
     """Have a way on the right searched for somebody who comes, once for each meeting."""
-    mission, leg, now_s = turn.running, turn.driving, turn.now_s
-    if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
-        return
-    if leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
-        return
-    before = leg.doubts
+    before, now_s = leg.doubts, turn.now_s
     keeps_right = before.newest is not None and (
         (before.newest.leg, before.newest.code) == (leg.leg, RIGHT)
     )
@@ -105,13 +111,6 @@ def on_oncoming(turn: Transaction, event: Oncoming) -> None:
     turn.change(doubts=replace(doubts, newest=newest, right_searched_s=now_s))
     reach_m = MET_SHARE * event.far_m + PASSED_M
     ask_route(turn, RoutePurpose.KEEP_RIGHT, keep_right_m=reach_m)
-
-
-def on_closing_in(turn: Transaction, event: ClosingIn) -> None:
-    """Note that another robot closes in, whatever the leg is driven for."""
-    mission, leg = turn.running, turn.driving
-    if mission is not None and leg is not None and (mission.id, leg.leg) == (event.id, event.leg):
-        turn.change(doubts=replace(leg.doubts, closed_in_s=turn.now_s))
 
 
 def meeting_share(book: MissionState) -> float:
@@ -175,16 +174,13 @@ AGAIN_S = 3.0
 GIVE_WAY = next(rung for rung in LADDER if rung.recovery is Recovery.GIVE_WAY)
 
 
-def make_way(turn: Transaction, event: Oncoming) -> None:
-    """Have a way aside searched before who comes is there."""
-    mission, leg, pose = turn.running, turn.driving, turn.book.pose
-    if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
-        return
-    busy = leg.manoeuvre is not None or leg.ticket is not None or leg.route_when_standing
-    if busy or pose is None or leg.act.way is not Way.ROUTE or not is_wide(event.radius_m):
-        return
+def _make_way(turn: Transaction, mission: Mission, leg: Driving, event: Oncoming) -> bool:
+    """Have a way aside searched before who comes is there; say if that was decided."""
+    pose, busy = turn.book.pose, leg.ticket is not None or leg.route_when_standing
+    if busy or pose is None or not is_wide(event.radius_m):
+        return False
     if not (event.far_m <= NEAR_M and turn.now_s - leg.doubts.made_way_s >= AGAIN_S):
-        return
+        return False
     turn.change(doubts=replace(leg.doubts, made_way_s=turn.now_s))
     side = Obstruction(event.seen_m, event.seen_m)
     record = begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
@@ -195,3 +191,4 @@ def make_way(turn: Transaction, event: Oncoming) -> None:
     own = Manoeuvre(GIVE_WAY, goal, Way.ASIDE, until_s, leg.metres, is_early=True)
     turn.change(manoeuvre=own)
     ask_route(turn, RoutePurpose.DETOUR)
+    return True

@@ -36,7 +36,7 @@ from planner.mission.perception_events import (
     stand_while_blind,
 )
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
-from planner.mission.recovery_steps import leave_silence, note_unblocked, recover, watch_manoeuvre
+from planner.mission.recovery_steps import leave_silence, recover, watch_manoeuvre
 from planner.mission.step_execution import begin_step, end_wait_if_due
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -216,7 +216,8 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
     elif off_path and leg.leg is not None:
         abandon_route(turn)
     elif leg.route_when_standing:
-        _route_standing(turn, status)
+        if standing(status) and not shows(status, "POSE_JUMP"):
+            ask_route(turn)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
         mission = turn.running
         climbed = mission is not None and mission.recovery.ladders > 0
@@ -238,11 +239,6 @@ def _off_limits(turn: Transaction, leg: Driving) -> bool:
     else:
         return False
     return True
-
-
-def _route_standing(turn: Transaction, status: Status) -> None:
-    if standing(status) and not shows(status, "POSE_JUMP"):
-        ask_route(turn)
 
 
 def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
@@ -283,7 +279,7 @@ def _recover_or_go_on(turn: Transaction, status: Status) -> None:
     if status.blocked:
         recover(turn, leg, status)
     else:
-        note_unblocked(turn)
+        turn.change(occupied_since_s=None)  # what stood on its goal has left
         reconsider_viewpoint(turn)
 
 

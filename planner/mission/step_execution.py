@@ -183,13 +183,7 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
         until_s=turn.now_s + act.seconds,
     )
     turn.set(tickets=ticket, activity=asking)
-    ask = AskEyes(
-        *(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y),
-        views=act.views,
-        now=act.now,
-        seek=act.seek,
-    )
-    turn.emit(ask)
+    turn.emit(AskEyes(mission.id, ticket, mission.language, act))
 
 
 def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp | CallTool) -> None:

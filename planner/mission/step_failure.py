@@ -7,12 +7,13 @@ look and to come back comes back with nothing, too: that way alone is still driv
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from planner.language.catalogue import say
 from planner.mission.account import BACK
 from planner.mission.activity import Retrying, Thinking
-from planner.mission.conversation import exchanges_of, list_observations, situation_of
-from planner.mission.effects import AskBrain
-from planner.mission.outcomes import failure, spot_at
+from planner.mission.conversation import list_observations, question_of
+from planner.mission.outcomes import failure
 from planner.mission.plan_walk import catch
 from planner.mission.queue import decline, end_running, note_step, settle_activity
 from planner.mission.recovery import FRESH
@@ -168,21 +169,7 @@ def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:
 
 def think(turn: Transaction, mission: Mission) -> None:
     """Have the brain think again, standing, with all that came of the goal so far."""
-    facts, status = turn.book.facts, turn.book.status
-    room = spot_at(facts, status.base_in_map if status is not None else None).room
     turn.set(activity=Thinking(record=turn.next_entry))
-    turn.emit(
-        AskBrain(
-            mission.id,
-            mission.words,
-            mission.language,
-            room,
-            list_observations(facts, mission),
-            mission.replans,
-            order=mission.text,
-            exchanges=exchanges_of(mission),
-            departed=mission.departed_at is not None,
-            situation=situation_of(turn.book, mission, turn.now_s),
-            changed=None if mission.replies else mission.changed,
-        )
-    )
+    ask = question_of(turn, mission)
+    observed = list_observations(turn.book.facts, mission)
+    turn.emit(replace(ask, observed=observed, replan=mission.replans))

@@ -15,7 +15,7 @@ import time
 from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
 from math import hypot
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from planner.language.catalogue import message, say
 from planner.mission.bridge_status import standing
@@ -78,13 +78,11 @@ class RouteService(Protocol):
 class Answers:
     """Name where answers go, and the lidar's points when a way round is wanted."""
 
-    planned: Callable[[Planned], None]
+    event: Callable[[Planned | Told | Recalled | ToolAnswered], None]
     routed: Callable[[AskRoute, RouteResult | None, str | None], None]
     obstacles: Callable[[], tuple[tuple[float, float], ...]]
-    told: Callable[[Told], None]
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
-    recalled: Callable[[Recalled | ToolAnswered], None] = lambda _: None
     call: ToolCaller = call_nothing
 
 
@@ -174,48 +172,28 @@ class MissionTasks:
         await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _understand(self, ask: AskBrain) -> None:
-        try:
-            answer = await self._think(ask)
-        except Exception:
-            # Whatever a brain may be, its fault must not end the planner: the goal fails, typed.
-            log.exception("the brain failed on goal %s", ask.id)
-            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
-            answer = Planned(ask.id, None, said)
+        said = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
+        answer = await _answer_of(self._think, ask, "the brain", Planned(ask.id, None, said))
         if self._thoughts.get(ask.id) is asyncio.current_task():
             del self._thoughts[ask.id]
-            self._answers.planned(answer)
+            self._answers.event(answer)
 
     async def _inquire(self, ask: AskEyes) -> None:
-        try:
-            told = await self._eyes.ask(ask)
-        except Exception:
-            # As with a brain: whatever sees, its fault must not end the planner.
-            log.exception("the eyes failed on goal %s", ask.id)
-            told = Told(ask.id, ask.ticket, ImageAnswer(failure="unavailable"))
+        unseen = Told(ask.id, ask.ticket, ImageAnswer(failure="unavailable"))
+        told = await _answer_of(self._eyes.ask, ask, "the eyes", unseen)
         if self._inquiries.get(ask.ticket) is asyncio.current_task():
             del self._inquiries[ask.ticket]
-            self._answers.told(told)
+            self._answers.event(told)
 
     async def _look_up(self, ask: AskMemory) -> None:
-        try:
-            answer = await self._recall(ask)
-        except Exception:
-            # As with a brain: its fault must not end the planner.
-            log.exception("memory failed on goal %s", ask.id)
-            code = Code.MEMORY_UNAVAILABLE
-            answer = Recalled(ask.id, ask.ticket, code, message(code))
-        self._answers.recalled(answer)
+        code = Code.MEMORY_UNAVAILABLE
+        unknown = Recalled(ask.id, ask.ticket, code, message(code))
+        self._answers.event(await _answer_of(self._recall, ask, "memory", unknown))
 
     async def _ask_tool(self, ask: AskTool) -> None:
-        try:
-            answer = await self._answers.call(ask)
-        except Exception:
-            # As with a brain: its fault must not end the planner.
-            log.exception("a tool failed on goal %s", ask.id)
-            why = say("tool_problem.bad_reply")
-            said = message(Code.TOOL_FAILED, call=ask.tool, why=why)
-            answer = ToolAnswered(ask.id, ask.ticket, said, problem="bad_reply")
-        self._answers.recalled(answer)
+        said = message(Code.TOOL_FAILED, call=ask.tool, why=say("tool_problem.bad_reply"))
+        failed = ToolAnswered(ask.id, ask.ticket, said, problem="bad_reply")
+        self._answers.event(await _answer_of(self._answers.call, ask, "a tool", failed))
 
     async def _search(self, ask: AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
@@ -239,6 +217,21 @@ class MissionTasks:
             self._answers.routed(ask, None, failure.code)
             return
         self._answers.routed(ask, result, None)
+
+
+Asked = TypeVar("Asked", AskBrain, AskEyes, AskMemory, AskTool)
+Answer = TypeVar("Answer", Planned, Told, Recalled, ToolAnswered)
+
+
+async def _answer_of(
+    answer: Callable[[Asked], Awaitable[Answer]], ask: Asked, who: str, otherwise: Answer
+) -> Answer:
+    """Return an answer. Whoever is asked, its fault ends no planner: the goal is told so, typed."""
+    try:
+        return await answer(ask)
+    except Exception:
+        log.exception("%s failed on goal %s", who, ask.id)
+        return otherwise
 
 
 SAME_M = 0.1
