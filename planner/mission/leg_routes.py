@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import hypot
 
-from planner.mission.activity import Driving, Manoeuvre, RoutePurpose
+from planner.mission.activity import Driving, LegHolds, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.bridge_status import standing
 from planner.mission.events import Routed
 from planner.mission.legs import (
@@ -134,7 +134,7 @@ def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Rou
     turn.change(manoeuvre=own, leg=None)
 
 
-def _stay_aside(turn: Transaction, mission: Progress, leg: Driving, own: Manoeuvre) -> None:
+def _stay_aside(turn: Transaction, mission: Progress, leg: LegRoutes, own: Manoeuvre) -> None:
     """Stand where it is, where somebody can pass; a leg that is streamed goes on by itself."""
     until_s = turn.now_s + aside_s(mission.recovery)
     turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
@@ -178,7 +178,7 @@ def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: st
         skip_rung(turn, leg)
 
 
-def _waits_on(turn: Transaction, mission: Progress, leg: Driving) -> bool:
+def _waits_on(turn: Transaction, mission: Progress, leg: LegHolds) -> bool:
     """Tell whether the wait that is in hand goes on: what stands there may leave any moment."""
     rung, since_s = rung_of(mission.recovery), leg.rung_since_s
     waits = rung.recovery is Recovery.WAIT and since_s is not None

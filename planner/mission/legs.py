@@ -17,7 +17,7 @@ from math import cos, hypot, sin
 
 from planner.language.catalogue import say
 from planner.mission.account import place_name
-from planner.mission.activity import Driving, RoutePurpose
+from planner.mission.activity import Driving, LegRoutes, RoutePurpose
 from planner.mission.effects import AskRoute
 from planner.mission.queue import finish, standing_hold
 from planner.mission.recovery import passes_m, shut_now, waits_for_other
@@ -97,7 +97,7 @@ def new_leg(turn: Transaction, mission: Mission) -> None:
     turn.change(leg=leg, refused_since_s=None, idle_since_s=None, jumped=False)
 
 
-def detour_failed(turn: Transaction, leg: Driving) -> None:
+def detour_failed(turn: Transaction, leg: LegRoutes) -> None:
     """Try a straight way or a spin again later; after three failures in a row it is blocked."""
     if leg.detours_failed + 1 >= MAX_DETOURS_FAILED:
         fail_step(turn, Fail(Code.BLOCKED, "blocked"))
@@ -113,7 +113,7 @@ def detour_pause_s(tried: int) -> float:
     return min(DETOUR_MOST_S, DETOUR_AFTER_S * 2.0**tried)
 
 
-def detour_if_due(turn: Transaction, leg: Driving, blocked_since_s: float) -> None:
+def detour_if_due(turn: Transaction, leg: LegRoutes, blocked_since_s: float) -> None:
     """Have a straight way or a spin tried again; the old horizon streams on until it is there."""
     due_s = detour_pause_s(leg.detours) if leg.detours else DETOUR_AFTER_S
     if turn.now_s - blocked_since_s < due_s:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from math import cos, sin
 
 from planner.mission.account import place_name
-from planner.mission.activity import Driving, Manoeuvre, RoutePurpose
+from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.bridge_status import standing
 from planner.mission.events import Surveyed
 from planner.mission.legs import ask_route, look_for_room
@@ -186,7 +186,7 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
             _give_up(turn, mission, leg)
 
 
-def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
+def _give_up(turn: Transaction, mission: Mission, leg: LegRoutes) -> None:
     """Fail the step; before somebody who walked up, only once the ladder was climbed thrice."""
     again = climb_again(mission.recovery)
     if again is None:
@@ -197,7 +197,7 @@ def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
     _begin_rung(turn)
 
 
-def skip_rung(turn: Transaction, leg: Driving) -> None:
+def skip_rung(turn: Transaction, leg: LegRoutes) -> None:
     """Leave a rung out; a leg that streams nothing begins the next one itself."""
     if leg.leg is None:
         climb_on(turn)

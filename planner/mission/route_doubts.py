@@ -17,7 +17,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.mission.activity import Driving, Manoeuvre, RouteDoubt, RoutePurpose
+from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RouteDoubt, RoutePurpose
 from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
 from planner.mission.legs import ask_route, new_leg
 from planner.mission.recovery import LADDER, Recovery, begin_ladder, note_obstruction
@@ -81,7 +81,7 @@ def on_way_news(turn: Transaction, event: RouteDoubted | Oncoming | ClosingIn) -
         _keep_right(turn, leg, event)
 
 
-def _doubt(turn: Transaction, leg: Driving, event: RouteDoubted) -> None:
+def _doubt(turn: Transaction, leg: LegRoutes, event: RouteDoubted) -> None:
     """Note that the leg's way is closed ahead; have another searched, where that is due."""
     doubt, now_s = leg.doubts.newest, turn.now_s
     lasts = doubt is not None and doubt.leg == event.leg and doubt.code not in _TAKEN
@@ -96,7 +96,7 @@ def _doubt(turn: Transaction, leg: Driving, event: RouteDoubted) -> None:
         ask_route(turn, RoutePurpose.DOUBT)
 
 
-def _keep_right(turn: Transaction, leg: Driving, event: Oncoming) -> None:
+def _keep_right(turn: Transaction, leg: LegRoutes, event: Oncoming) -> None:
     """Have a way on the right searched for somebody who comes, once for each meeting."""
     before, now_s = leg.doubts, turn.now_s
     keeps_right = before.newest is not None and (
@@ -154,7 +154,7 @@ def standing_doubt(book: MissionState) -> RouteDoubt | None:
     return doubt if lasts else None
 
 
-def _may_search(turn: Transaction, leg: Driving) -> bool:
+def _may_search(turn: Transaction, leg: LegRoutes) -> bool:
     """Tell whether nothing else looks after the leg now."""
     status = turn.book.status
     return (
