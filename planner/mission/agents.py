@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import message
 from planner.language.commands import BatteryCommand, Doing, OutcomeCommand, WhereCommand
 from planner.mission.errors import NotOwnGoal, PersonMissing, UnknownGoal
-from planner.mission.open_questions import asks, confirms
+from planner.mission.open_questions import Wait, wait_of
 from planner.mission.state import AGENT_SOURCE
 from planner.mission.transitions import refusal
 from planner.plan import STEPLESS, Clarify, Code, Option, PlanRole, Refuse, StepPlan
@@ -53,7 +53,7 @@ def needs_person(mission: Mission) -> bool:
 
     What a brain asks about the order itself is for the giver of the order to answer.
     """
-    return confirms(mission) or asks(mission)
+    return wait_of(mission) in (Wait.STEP, Wait.PLAN)
 
 
 def refuse_command(book: MissionState, command: Command, source: str) -> MissionError | None:

@@ -19,7 +19,7 @@ from planner.language.commands import OutcomeCommand
 from planner.language.formatting import angle, metres
 from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
-from planner.mission.open_questions import WAITS
+from planner.mission.open_questions import list_waiting
 from planner.mission.outcomes import spot_at
 from planner.mission.plan_walk import NOT_CHOSEN
 from planner.mission.state import Consent, Mission, Planning
@@ -96,7 +96,7 @@ def _step(running: Mission) -> str | None:
 
 def _question(book: MissionState, mission: GivenOrder) -> OpenQuestion | None:
     """Return the newest question that waits, besides this goal's own."""
-    waiting = [m for m in book.missions.values() if m.state in WAITS and m.id != mission.id]
+    waiting = list_waiting(book, mission.id)
     newest = max(waiting, key=lambda m: m.updated_unix_s, default=None)
     if newest is None:
         return None

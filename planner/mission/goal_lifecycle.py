@@ -12,12 +12,11 @@ from planner.mission.conversation import question_of
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import as_point, departure_of, newest_order, way_back_of
 from planner.mission.open_questions import (
+    TAKES_YES,
+    Wait,
     ask_anew,
     ask_plainly,
-    asks,
     close_older,
-    confirms,
-    find_offer,
     find_offered_plan,
     keep_answer,
     make_room,
@@ -26,6 +25,7 @@ from planner.mission.open_questions import (
     take_no,
     take_sentence,
     tell_offer,
+    wait_of,
     waiting_since,
 )
 from planner.mission.outcomes import plain_outcome
@@ -233,14 +233,14 @@ def reply(turn: Transaction, mission: Mission, text: str, by: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = keep_answer(turn, mission, text, by)
     ask_anew(turn, mission)
-    agreed, order = parse(text).consent, find_offer(mission)
-    if asks(mission):
+    agreed, waits = parse(text).consent, wait_of(mission)
+    if waits is Wait.STEP:
         take_answer(turn, mission, text)
-    elif agreed is False and (order is not None or confirms(mission)):
+    elif agreed is False and waits in TAKES_YES:
         take_no(turn, mission)
-    elif confirms(mission) and agreed:
+    elif waits is Wait.PLAN and agreed:
         ready(turn, mission, PersonCause.AGREES)
-    elif confirms(mission):
+    elif waits is Wait.PLAN:
         ask_plainly(turn, mission)
     elif (offered := find_offered_plan(mission, text)) is not None:
         mission = note_answer(turn, mission, text)

@@ -9,6 +9,8 @@ room), so that no number of open questions keeps an order out. After a restart t
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.offered_choice import choose
@@ -50,31 +52,48 @@ WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATIO
 _YES_OR_NO = say("question.yes_or_no")
 
 
-def asks(mission: Mission) -> bool:
-    """Tell whether a goal waits for the answer to a question of one of its own steps."""
-    step = mission.current_step
-    return (
-        mission.state is GoalState.NEEDS_CLARIFICATION
-        and step is not None
-        and step.state is StepState.RUNNING
-    )
+class Wait(StrEnum):
+    """Name what a goal waits for from a person."""
+
+    STEP = "the answer to a question of one of its own steps"
+    PLAN = "a yes to its plan"
+    OFFER = "a yes to the one order that a brain's question offers"
+    ORDER = "a brain's question about the order, which offers several or none"
+    FREELY = "whatever is answered: a model asks about the order, offers none and reads it"
 
 
-def confirms(mission: Mission) -> bool:
-    """Tell whether a plan waits for a yes."""
-    return mission.state is GoalState.AWAITING_CONFIRMATION
+ABOUT_ORDER = frozenset({Wait.OFFER, Wait.ORDER, Wait.FREELY})
+TAKES_YES = frozenset({Wait.STEP, Wait.PLAN, Wait.OFFER})
+"""A plain yes or no answers these."""
+
+
+def wait_of(mission: Mission) -> Wait | None:
+    """Return what a goal waits for from a person; None: for nothing.
+
+    An order to stop is no offer: it is taken from a person's own words alone.
+    """
+    step, plan, brain = mission.current_step, mission.plan, mission.brain
+    if mission.state not in WAITS:
+        return None
+    if mission.state is GoalState.AWAITING_CONFIRMATION:
+        return Wait.PLAN
+    if step is not None and step.state is StepState.RUNNING:
+        return Wait.STEP
+    if plan is None or len(plan.options) == 1:
+        return Wait.OFFER if plan is not None and not is_stop(plan.options[0].text) else Wait.ORDER
+    model = brain is not None and brain.name != OFFLINE
+    return Wait.FREELY if model and not plan.options else Wait.ORDER
 
 
 def find_offer(mission: Mission) -> str | None:
-    """Return the one order that a brain's question offers; None where it offers none or several.
+    """Return the one order that a brain's question offers; None where it offers none or several."""
+    offers = mission.plan is not None and wait_of(mission) is Wait.OFFER
+    return mission.plan.options[0].text if mission.plan is not None and offers else None
 
-    An order to stop is none: it is taken from a person's own words alone.
-    """
-    plan = mission.plan
-    if mission.state is not GoalState.NEEDS_CLARIFICATION or plan is None or asks(mission):
-        return None
-    only = plan.options[0].text if len(plan.options) == 1 else None
-    return only if only is not None and not is_stop(only) else None
+
+def list_waiting(book: MissionState, besides: str = "") -> tuple[Mission, ...]:
+    """Return the goals that wait for a person's word, besides one."""
+    return tuple(m for m in book.missions.values() if m.state in WAITS and m.id != besides)
 
 
 def find_choice(mission: Planning, answer: str) -> str | None:
@@ -98,7 +117,7 @@ def find_offered_plan(
     ``is_standing``: what the standing order does each time that was laid before the person.
     """
     plan = mission.plan
-    if plan is None or mission.state is not GoalState.NEEDS_CLARIFICATION or asks(mission):
+    if plan is None or wait_of(mission) not in ABOUT_ORDER:
         return None
     order = find_offer(mission) if parse(answer).consent else find_choice(mission, answer)
     taken = (each for each in plan.options if each.text in (order, answer))
@@ -144,19 +163,6 @@ def tell_offer(mission: Planning, question: Bilingual) -> Bilingual:
     if order.casefold() in f"{question.en} {question.zh}".casefold():
         return question
     return say("question.offers", asked=question, order=order[:200])
-
-
-def asks_freely(mission: Mission) -> bool:
-    """Tell whether a model asks about an order and offers none: it reads whatever is answered."""
-    plan, brain = mission.plan, mission.brain
-    about_order = mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
-    model = brain is not None and brain.name != OFFLINE
-    return about_order and model and plan is not None and not plan.options
-
-
-def takes_yes(mission: Mission) -> bool:
-    """Tell whether a plain yes or no answers what a goal waits for."""
-    return asks(mission) or confirms(mission) or find_offer(mission) is not None
 
 
 def take_sentence(turn: Transaction, mission: Mission, asking: tuple[str, ...]) -> Mission | None:
@@ -252,9 +258,7 @@ def end_unanswered(turn: Transaction) -> None:
     """End every goal whose question nobody answered in time; note since when the others wait."""
     asked_s: dict[str, float] = {}
     limit_s = turn.book.rules.answer_s
-    for mission in tuple(turn.book.missions.values()):
-        if mission.state not in WAITS:
-            continue
+    for mission in list_waiting(turn.book):
         since_s = turn.book.asked_s.get(mission.id, turn.now_s)
         if turn.now_s - since_s > limit_s:
             said = message(Code.NO_ANSWER, text=_repeat_question(mission), seconds=f"{limit_s:.0f}")
@@ -283,32 +287,29 @@ def close_older(turn: Transaction, new: GivenOrder) -> None:
     """
     for mission in tuple(turn.book.missions.values()):
         older = mission.order < new.order and mission.source == new.source
-        if older and _about_order(mission):
+        if older and wait_of(mission) in ABOUT_ORDER:
             _make_way(turn, mission, new.text)
 
 
 def has_room(book: MissionState) -> bool:
     """Tell whether one more order can be taken, perhaps in place of a question."""
     open_ = [m for m in book.missions.values() if not m.has_ended]
-    return len(open_) < MAX_OPEN or any(m.state in WAITS for m in open_)
+    return len(open_) < MAX_OPEN or bool(list_waiting(book))
 
 
 def make_room(turn: Transaction, text: str) -> None:
     """End the oldest questions while goals are more than may be open: about orders first."""
     while True:
         open_ = [m for m in turn.book.missions.values() if not m.has_ended]
-        waiting = [m for m in open_ if m.state in WAITS]
+        waiting = list_waiting(turn.book)
         if len(open_) < MAX_OPEN or not waiting:
             return
         _make_way(turn, min(waiting, key=_worth), text)
 
 
 def _worth(mission: Mission) -> tuple[int, int]:
-    return (0 if _about_order(mission) else 1 if confirms(mission) else 2), mission.order
-
-
-def _about_order(mission: Mission) -> bool:
-    return mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
+    waits = wait_of(mission)
+    return (0 if waits in ABOUT_ORDER else 1 if waits is Wait.PLAN else 2), mission.order
 
 
 def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:

@@ -20,7 +20,7 @@ from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import label_named, places_named
 from planner.language.sentence import parse
 from planner.mission.events import Planned
-from planner.mission.open_questions import WAITS, take_sentence
+from planner.mission.open_questions import list_waiting, take_sentence
 from planner.mission.outcomes import plain_outcome
 from planner.mission.queue import cancel, finish
 from planner.mission.spoken_status import stop_told
@@ -166,7 +166,7 @@ def find_asking(turn: Transaction, mission: Mission) -> Mission | None:
 
     Where none waits, or several, nothing is answered and the person is told so.
     """
-    waiting = [m for m in turn.book.missions.values() if m.state in WAITS and m.id != mission.id]
+    waiting = list_waiting(turn.book, mission.id)
     if not waiting:
         refused = Outcome(code=Code.NOT_UNDERSTOOD, message=say("talk.nothing_asked"))
         finish(turn, mission, BrainCause.REFUSES, refused, Code.NOT_UNDERSTOOD.value)

@@ -26,7 +26,7 @@ from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, PersonMissing, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of
-from planner.mission.open_questions import WAITS, asks_freely, has_room, takes_yes
+from planner.mission.open_questions import TAKES_YES, Wait, has_room, list_waiting, wait_of
 from planner.mission.request_keys import Repeats, body_of, request_of
 from planner.mission.state import RESERVED_KEYS, GoalKey, MissionState, goal_to_end, newest_paused
 from planner.mission.transitions import refusal
@@ -256,8 +256,9 @@ def receive_answer(
     if lean is not None and lean.corrects:  # "no, the study": in place of what is asked
         lean = replace(lean, ends=False, first=False, replaces=False)  # what it ends has ended
         return AnswerReception(command=Cancel(goal_id), sentence=said.text, lean=lean)
-    own_question = takes_yes(book.missions[goal_id])  # "go on" may be its answer
-    declines = said.consent is False and (own_question or asks_freely(book.missions[goal_id]))
+    waits = wait_of(book.missions[goal_id])
+    own_question = waits in TAKES_YES  # "go on" may be its answer
+    declines = said.consent is False and (own_question or waits is Wait.FREELY)
     if (said.stays_put and not declines) or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
     return AnswerReception(command=Reply(goal_id, said.text, by))
@@ -284,7 +285,7 @@ def hears_stop(book: MissionState, said: SaidSentence, now_s: float) -> bool:
 
 def awaits_answer(book: MissionState) -> bool:
     """Return whether a question waits for a yes or no."""
-    return any(takes_yes(mission) for mission in book.missions.values())
+    return any(wait_of(mission) in TAKES_YES for mission in list_waiting(book))
 
 
 def is_active(book: MissionState, now_s: float) -> bool:
@@ -310,11 +311,11 @@ def goals_answered_by(book: MissionState, said: SaidSentence) -> tuple[str, ...]
     intent = said.intent
     if not (intent is None or (isinstance(intent, GoOn) and goal_to_resume(book) is None)):
         return ()  # "go on" is a yes where there is nothing else to go on with
-    waiting = [m for m in book.missions.values() if m.state in WAITS]
-    taking = {m.id: m.updated_unix_s for m in waiting if takes_yes(m)}
+    waiting = list_waiting(book)
+    taking = {m.id: m.updated_unix_s for m in waiting if wait_of(m) in TAKES_YES}
     if not taking:  # "Do you mean the kitchen?" of a model: it reads the word itself
         alone = len(waiting) == 1 and intent is None
-        return tuple(m.id for m in waiting if alone and asks_freely(m))
+        return tuple(m.id for m in waiting if alone and wait_of(m) is Wait.FREELY)
     newest_unix_s = max(taking.values())
     return tuple(m.id for m in waiting if m.id in taking or m.updated_unix_s >= newest_unix_s)
 

@@ -16,7 +16,7 @@ from planner.language.catalogue import join, message, say
 from planner.mission.effects import AskBrain
 from planner.mission.errors import QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
-from planner.mission.open_questions import has_room
+from planner.mission.open_questions import WAITS, has_room
 from planner.mission.outcomes import moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.state import ORDER_SOURCE, GoalKey, Mission, MissionState
@@ -26,7 +26,6 @@ from planner.plan import (
     Bilingual,
     Clarify,
     Code,
-    GoalState,
     Language,
     Refuse,
     Step,
@@ -187,8 +186,7 @@ class StandingGoals:
     def waits(self, goal_id: str) -> bool:
         """Tell whether a goal waits for a person's word."""
         mission = self.book.missions.get(goal_id)
-        asks = (GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION)
-        return mission is not None and mission.state in asks
+        return mission is not None and mission.state in WAITS
 
     def cancel(self, goal_id: str) -> None:
         """End a goal, where it has not ended."""
