@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.formatting import angle, definite, metres
 from planner.language.object_names import tell_words
-from planner.mission.plan_walk import is_left_open
 from planner.plan import Bilingual, Code, StepState, say_same
+from planner.plan.plan_walk import is_left_open
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

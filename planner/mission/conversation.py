@@ -21,9 +21,9 @@ from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.open_questions import list_waiting
 from planner.mission.outcomes import spot_at
-from planner.mission.plan_walk import NOT_CHOSEN
 from planner.mission.state import Consent, Mission, Planning
 from planner.plan import CONTROL, Bilingual, Code, GoalState, StepRecord, StepState, say_same
+from planner.plan.plan_walk import NOT_CHOSEN
 from planner.site.site_view import SiteView
 
 if TYPE_CHECKING:

@@ -15,7 +15,6 @@ from planner.language.questions import looks_round
 from planner.mission.events import Planned
 from planner.mission.outcomes import plain_outcome
 from planner.mission.plan_check import NO_STEPS, UNASKED, ask_for_motion, unwalkable
-from planner.mission.plan_walk import asked_of, close_open
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of
 from planner.mission.state import Mission
@@ -38,6 +37,7 @@ from planner.plan import (
     plan_record,
     say_same,
 )
+from planner.plan.plan_walk import asked_of, close_open
 from planner.site.site_view import SiteView
 from planner.skills.ask import ask_again
 

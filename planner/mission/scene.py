@@ -16,7 +16,6 @@ from planner.language.object_names import name_object
 from planner.mission.account import BACK, name_point
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
-from planner.mission.plan_walk import catch
 from planner.mission.queue import skill_state_now
 from planner.mission.state import ORDER_SOURCE, Mission, Planning
 from planner.mission.transaction import Transaction
@@ -32,6 +31,7 @@ from planner.plan import (
     places_of,
     say_same,
 )
+from planner.plan.plan_walk import catch
 from planner.skills import ImageAnswer, Scene, begin_state
 from planner.skills.search_bounds import GRANT_M
 from wire import Pose2

@@ -23,8 +23,6 @@ from planner.mission.bridge_status import cannot_move
 from planner.mission.effects import AskEyes, AskMemory, AskTool, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import ended_outcome, moves, plain_outcome, thoughts
-from planner.mission.plan_walk import RoundBudget, enter
-from planner.mission.plan_walk import go_on as go_on_walking
 from planner.mission.queue import (
     finish,
     next_up,
@@ -39,6 +37,8 @@ from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, StepState, parent_of
+from planner.plan.plan_walk import RoundBudget, enter
+from planner.plan.plan_walk import go_on as go_on_walking
 from planner.skills import (
     AskImage,
     CallTool,

@@ -14,13 +14,13 @@ from planner.mission.account import BACK
 from planner.mission.activity import Retrying, Thinking
 from planner.mission.conversation import list_observations, question_of
 from planner.mission.outcomes import failure
-from planner.mission.plan_walk import catch
 from planner.mission.queue import decline, end_running, note_step, settle_activity
 from planner.mission.recovery import FRESH
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, Outcome, StepState, parent_of, parents_of
+from planner.plan.plan_walk import catch
 from planner.skills import Fail, SkillStateBase
 
 MENDABLE = frozenset(
