@@ -33,6 +33,7 @@ with ``rounds=False`` and calls ``missions.loop.hear()`` and ``tick()`` itself. 
 ``motion_request`` are pure.
 """
 
+from planner.bridge_client.ownership import MotionRequest
 from planner.mission.api_view import goal_of
 from planner.mission.clocks import Clocks
 from planner.mission.effects import (
@@ -42,7 +43,6 @@ from planner.mission.effects import (
     Effect,
     GoalChange,
     Journal,
-    MotionRequest,
     SayAloud,
 )
 from planner.mission.engine import Engine, Leg, Output

@@ -10,10 +10,11 @@ from dataclasses import dataclass, replace
 from math import atan2, copysign, hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
+from planner.bridge_client.nav2_pilot import Nav2Pilot, pilot_of
+from planner.bridge_client.ownership import MotionRequest
 from planner.mission.activity import Driving, RouteDoubt
-from planner.mission.effects import AskRoute, Effect, MotionRequest
+from planner.mission.effects import AskRoute, Effect
 from planner.mission.events import Event, Routed, Seen
-from planner.mission.nav2_pilot import Nav2Pilot, pilot_of
 from planner.mission.reducer import advance, motion_request
 from planner.mission.route_doubts import meeting_share, standing_doubt
 from planner.mission.state import MissionState

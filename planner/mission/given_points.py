@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Protocol
 
 from maps.grid import FREE, UNKNOWN
 from planner.bridge_client import Aged
+from planner.bridge_client.bridge_status import standing
 from planner.language.place_lists import rejection_outcome
 from planner.language.plan_words import tell_steps
 from planner.mission.agents import is_agents
-from planner.mission.bridge_status import standing
 from planner.mission.events import Planned, Submitted
 from planner.mission.outcomes import plain_outcome
 from planner.mission.reception import receive_points

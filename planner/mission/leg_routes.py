@@ -15,8 +15,8 @@ from __future__ import annotations
 from dataclasses import replace
 from math import hypot
 
+from planner.bridge_client.bridge_status import standing
 from planner.mission.activity import Driving, LegHolds, LegRoutes, Manoeuvre, RoutePurpose
-from planner.mission.bridge_status import standing
 from planner.mission.events import Routed
 from planner.mission.legs import (
     abandon_route,

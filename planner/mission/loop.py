@@ -15,8 +15,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.bridge_client import Link, LinkError
+from planner.bridge_client.bridge_status import at_rest
 from planner.mission.api_view import Progress, goal_of, progress_of
-from planner.mission.bridge_status import at_rest
 from planner.mission.clocks import Clocks, Collector, WaypointLatency
 from planner.mission.effects import AskRoute, ClearHold, Effect, GoalChange, Journal, SayAloud
 from planner.mission.engine import Engine, Leg, Output, WayAhead

@@ -12,9 +12,9 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner.bridge_client.bridge_status import standing
 from planner.language.catalogue import message, say, say_or_quote
 from planner.mission.activity import AskingImage, CallingTool, Driving, LookingUp, Observing
-from planner.mission.bridge_status import standing
 from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
 from planner.mission.outcomes import looks_into

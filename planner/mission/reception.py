@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from planner.bridge_client.bridge_status import at_rest
 from planner.language.commands import CancelCommand as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
@@ -22,7 +23,6 @@ from planner.language.readers import AT_THE_DOOR, readings, stop
 from planner.language.reading import AnswerReading, ChangeReading, HaltReading
 from planner.language.sentence import SaidSentence
 from planner.mission import agents
-from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, PersonMissing, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of

@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 from math import cos, sin
 
+from planner.bridge_client.bridge_status import standing
 from planner.mission.account import place_name
 from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RoutePurpose
-from planner.mission.bridge_status import standing
 from planner.mission.events import Surveyed
 from planner.mission.legs import ask_route, look_for_room
 from planner.mission.queue import note_step

@@ -9,9 +9,10 @@ is laid anew. What the bridge should be asked for is a level, read from the book
 
 from __future__ import annotations
 
+from planner.bridge_client.ownership import STAND, MotionRequest
 from planner.language.catalogue import list_names, message
 from planner.mission.activity import AskingImage, Driving
-from planner.mission.effects import STAND, AskBrain, Effect, MotionRequest
+from planner.mission.effects import AskBrain, Effect
 from planner.mission.events import (
     Cancel,
     ChangeSpeed,

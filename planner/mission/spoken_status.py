@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner.bridge_client.bridge_status import standing, worst_row
 from planner.language.catalogue import message, say, say_or_quote
 from planner.language.formatting import definite
 from planner.mission.account import DRIVEN, place_name
-from planner.mission.bridge_status import standing, worst_row
 from planner.mission.outcomes import spot_at
 from planner.mission.state import Mission, MissionState
 from planner.plan import Bilingual, Code, GoalState, say_same

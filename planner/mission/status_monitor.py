@@ -6,8 +6,7 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
-from planner.mission.activity import AskingImage, Driving, Observing, Retrying, RoutePurpose
-from planner.mission.bridge_status import (
+from planner.bridge_client.bridge_status import (
     GATES,
     SILENT_SECTOR,
     amount_done,
@@ -18,6 +17,7 @@ from planner.mission.bridge_status import (
     shows,
     standing,
 )
+from planner.mission.activity import AskingImage, Driving, Observing, Retrying, RoutePurpose
 from planner.mission.leg_routes import on_arrival, reconsider_viewpoint
 from planner.mission.legs import (
     abandon_route,

@@ -5,6 +5,7 @@ When a leg is done, ``arrival`` tells. Nothing moves or speaks before its beginn
 
 from __future__ import annotations
 
+from planner.bridge_client.bridge_status import cannot_move
 from planner.language.catalogue import message, say
 from planner.language.plan_words import name_call
 from planner.mission.account import outcome_code
@@ -19,7 +20,6 @@ from planner.mission.activity import (
     Speaking,
     Waiting,
 )
-from planner.mission.bridge_status import cannot_move
 from planner.mission.effects import AskEyes, AskMemory, AskTool, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import ended_outcome, moves, plain_outcome, thoughts

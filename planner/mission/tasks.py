@@ -17,8 +17,8 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Any, Protocol, TypeVar
 
+from planner.bridge_client.bridge_status import standing
 from planner.language.catalogue import message, say
-from planner.mission.bridge_status import standing
 from planner.mission.effects import (
     AskBrain,
     AskEyes,

@@ -8,9 +8,10 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.bridge_client.ownership import STAND
 from planner.language.catalogue import message
 from planner.mission.activity import Driving
-from planner.mission.effects import STAND, AskRoute, Journal, SayAloud
+from planner.mission.effects import AskRoute, Journal, SayAloud
 from planner.mission.events import (
     Cancel,
     Command,
