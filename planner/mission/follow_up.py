@@ -14,6 +14,7 @@ from dataclasses import replace
 from math import hypot, pi
 from typing import TYPE_CHECKING
 
+from planner.language.antecedents import complete_person, fits, name_antecedents, thing_of
 from planner.language.changes.reader import read_changes
 from planner.language.commands import HereCommand, Replace, intent_of
 from planner.language.folding import has_chinese
@@ -25,7 +26,6 @@ from planner.language.person_names import is_given_name, people_named
 from planner.language.reading import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
-from planner.mission.antecedents import complete_person, fits, name_antecedents, thing_of
 from planner.mission.open_questions import find_choice, find_offered_plan
 from planner.mission.outcomes import moves, spot_at
 from planner.mission.state import ORDER_SOURCE, GivenOrder, goal_to_end
@@ -76,7 +76,7 @@ def lean_of(book: MissionState, said: SaidSentence, now_unix_s: float) -> Change
         lean = _lean(book, change, orders, text)
         if lean is not None:
             return lean
-    words = name_antecedents(text, orders, book.facts, names) if intent is None else None
+    words = name_antecedents(text, orders, names) if intent is None else None
     return ChangeReading(ChangedOrder(words=words)) if words is not None else None
 
 
@@ -96,7 +96,7 @@ def _take_back(
         there = Change(Edit.INSTEAD, each.place, each.inner) if each.act is Edit.WHERE else each
         lean = _lean(book, there, orders, intent.rest) if there.act is Edit.INSTEAD else None
         changed = changed or (lean.changed if lean is not None else None)
-    named = name_antecedents(intent.rest, orders, book.facts, names) or intent.rest
+    named = name_antecedents(intent.rest, orders, names) or intent.rest
     changed = changed or ChangedOrder(words=named)
     now = intent.now
     return ChangeReading(changed, ends=now, first=now, replaces=not now, corrects=True)
@@ -110,7 +110,7 @@ def _lean(
     if change.rest:
         if not _is_order(change.rest) or not _is_over_there(book, change, last):
             return None
-        rest = name_antecedents(change.rest, orders, book.facts, book.facts.names)
+        rest = name_antecedents(change.rest, orders, book.facts.names)
         changed = ChangedOrder(words=rest or change.rest)
         return ChangeReading(changed, ends=corrects, first=True, corrects=corrects)
     if change.who and last is not None and not _fits(change.who, last):
@@ -119,7 +119,9 @@ def _lean(
     if change.act in _ROUNDS and not _may_change_round(book, change, last):
         return None
     completes = change.act is Edit.WHERE and last is not None and not last.steps
-    words = complete_person(change, last, book.facts) if completes and last is not None else None
+    words = (
+        complete_person(change, last, book.facts.names) if completes and last is not None else None
+    )
     steps = apply(order, change) if words is None else ()
     if not steps and words is None:
         return None

@@ -7,7 +7,6 @@ import dataclasses
 from planner.language.catalogue import join, say
 from planner.language.sentence import parse
 from planner.mission.activity import Thinking
-from planner.mission.antecedents import complete_order
 from planner.mission.conversation import question_of
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import as_point, departure_of, newest_order, way_back_of
@@ -17,6 +16,7 @@ from planner.mission.open_questions import (
     ask_anew,
     ask_plainly,
     close_older,
+    complete_order,
     find_offered_plan,
     keep_answer,
     make_room,

@@ -12,7 +12,9 @@ from __future__ import annotations
 from enum import StrEnum
 
 from planner.brain.interface import OFFLINE
+from planner.language.antecedents import complete_person, complete_place
 from planner.language.catalogue import join, list_names, message, say
+from planner.language.changes.reader import read_changes
 from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
@@ -35,6 +37,7 @@ from planner.mission.transitions import GoalFact, PersonCause
 from planner.plan import (
     Bilingual,
     Code,
+    Edit,
     GoalAnswer,
     GoalState,
     Outcome,
@@ -42,6 +45,7 @@ from planner.plan import (
     StepState,
     say_same,
 )
+from planner.site.site_view import SiteView
 from planner.skills import Fail
 from planner.skills.ask import ask, tell_declined
 from planner.skills.skill_state import BoundedSearchState
@@ -122,6 +126,23 @@ def find_offered_plan(
     order = find_offer(mission) if parse(answer).consent else find_choice(mission, answer)
     taken = (each for each in plan.options if each.text in (order, answer))
     return next((each.plan for each in taken if each.is_standing is is_standing), None)
+
+
+def complete_order(facts: SiteView, asking: Mission, answer: str) -> str:
+    """Return the order that an answer agrees to, chooses or completes.
+
+    Else it is the answer as it was said.
+    """
+    offered = find_offer(asking) if parse(answer).consent else None
+    chosen = offered or find_choice(asking, answer)
+    if chosen is not None or asking.brain is None or asking.brain.name != OFFLINE:
+        return chosen or answer
+    changes = read_changes(answer, facts.names)
+    named = [complete_place(each, asking, facts.names) for each in changes]
+    placed = [
+        complete_person(each, asking, facts.names) for each in changes if each.act is Edit.WHERE
+    ]
+    return next((order for order in (*named, *placed) if order is not None), answer)
 
 
 def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) -> Mission:

@@ -22,13 +22,13 @@ from planner.brain.offline_brain import read_untouched
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
+from planner.language.antecedents import ORDERS_BACK
 from planner.language.catalogue import join, message, say
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
 from planner.language.sentence import parse
 from planner.language.yes_no import consents
-from planner.mission.antecedents import ORDERS_BACK
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.follow_up import LEANS_S

@@ -10,14 +10,11 @@ and ask for the new. Pure.
 
 from __future__ import annotations
 
-import re
-
 from planner.language.catalogue import join, list_names, say
 from planner.language.commands import ResumeCommand
 from planner.language.folding import has_chinese
-from planner.language.motion_guard.clause_moods import ClauseMood
-from planner.language.motion_guard.clauses import read_clauses
 from planner.language.motion_guard.mentioned_names import label_named, places_named
+from planner.language.motion_guard.taking_back import ends_goal, takes_back
 from planner.language.sentence import parse
 from planner.mission.events import Planned
 from planner.mission.open_questions import list_waiting, take_sentence
@@ -39,25 +36,11 @@ from planner.plan import (
     PlanRole,
     Refuse,
     StepPlan,
-    Vocabulary,
     places_of,
     plan_record,
     say_same,
     words_of,
 )
-
-_ENDS_IT = (
-    r"\b(?:forget|cancel|never ?mind|scrap|scratch|abort|drop|call off|leave it|skip|enough|quit"
-    r"|(?:don't|do not) (?:go|bother|need|look|do|drive))\b"
-    r"|取消|撤销|算了|放弃|忘了|免了|不用|不要|别"
-)
-_ENDS = re.compile(_ENDS_IT)
-_TAKES_BACK = re.compile(
-    rf"(?:^|[,.;!|] *)(?:\w+ )?(?:no|nope|not)\b|\bnot (?:the|there|that|this)\b"
-    r"|\b(?:instead|rather|wrong|i meant?|changed? (?:my|the|of)|actually|sorry|make (?:it|that))\b"
-    rf"|不对|不是|不去|不不|^不|改|换|错|而是|还是去|我(?:说|要|指)的是|我是说|{_ENDS_IT}"
-)
-
 
 IN_HAND = frozenset(
     {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
@@ -73,24 +56,6 @@ def goal_in_hand(turn: Transaction, new: GivenOrder) -> Mission | None:
         return turn.running
     open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
     return max(open_, key=lambda m: m.order, default=None)
-
-
-def takes_back(text: str) -> bool:
-    """Tell whether a person's words take anything back, whatever they name."""
-    return _TAKES_BACK.search(_unconditional(text)) is not None
-
-
-def ends_goal(text: str) -> bool:
-    """Tell whether a person's words end what is done, and nothing in its place."""
-    return _ENDS.search(_unconditional(text)) is not None
-
-
-def _unconditional(text: str) -> str:
-    """Return what a sentence says outside of conditions and quotes, denials included."""
-    clauses = read_clauses(text, Vocabulary())
-    hangs = any(each.hung or each.mood is ClauseMood.CONDITION for each in clauses)
-    out = {ClauseMood.CONDITION, ClauseMood.DENIED} if hangs else set()
-    return " | ".join(each.text for each in clauses if each.mood not in out and not each.hung)
 
 
 def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:
