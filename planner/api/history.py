@@ -13,9 +13,9 @@ from starlette.responses import HTMLResponse
 
 from planner.api.goals import Cursor, find_goal
 from planner.api.interfaces import Services
+from planner.api.shared_mission import page_of
 from planner.budget import Usage
 from planner.mission.goal_history import GoalStory, HistoryPage, HistoryQuery, RecordedTrack
-from planner.mission.shared_mission import page_of
 from planner.plan import Frozen, Goal, GoalState, Language
 
 Limit = Annotated[int, Query(ge=1, le=200)]
