@@ -9,7 +9,7 @@ informed it.
 
 from __future__ import annotations
 
-from math import degrees, hypot
+from math import degrees
 from typing import TYPE_CHECKING
 
 from planner.brain.interface import MAX_OBSERVED, Exchange, Observation
@@ -18,21 +18,20 @@ from planner.language.catalogue import list_names, say
 from planner.language.commands import OutcomeCommand
 from planner.language.formatting import angle, metres
 from planner.language.sentence import parse
+from planner.mission.account import name_place
 from planner.mission.effects import AskBrain
 from planner.mission.open_questions import list_waiting
-from planner.mission.outcomes import spot_at
+from planner.mission.outcomes import find_place_near, spot_at
 from planner.mission.state import Consent, Mission, Planning
-from planner.plan import CONTROL, Bilingual, Code, GoalState, StepRecord, StepState, say_same
+from planner.plan import CONTROL, Bilingual, Code, GoalState, StepRecord, StepState, places_of
 from planner.plan.plan_walk import NOT_CHOSEN
 from planner.site.site_view import SiteView
 
 if TYPE_CHECKING:
     from planner.mission.state import GivenOrder, MissionState
     from planner.mission.transaction import Transaction
-    from wire import Pose2
 
 
-NEAR_M = 1.0
 _EYES = frozenset({"look", "find", "count"})
 """Steps of which a detector has words of its own."""
 _ORDER, _TOLD, _QUEUED = 70, 80, 50  # characters
@@ -42,12 +41,13 @@ _UNSEEN = frozenset({GoalState.PLANNING, GoalState.QUEUED, GoalState.RUNNING})
 def situation_of(book: MissionState, mission: Mission, now_s: float) -> Situation:
     """Return where things stand for a brain that thinks about this goal."""
     status, pose, running = book.status, book.pose, book.running_goal
+    near = find_place_near(book.facts, pose) if pose is not None else None
     waiting = [i for i in book.queue if i != mission.id]
     own = running is None or running.id == mission.id
     return Situation(
         battery=status.drive.battery if status is not None else None,
         room=spot_at(book.facts, pose).room,
-        place=_place_near(book.facts, pose) if pose is not None else None,
+        place=near.id if near is not None else None,
         heading_deg=round(degrees(pose.yaw_rad)) if pose is not None else None,
         running=None if own or running is None else running.text[:_ORDER],
         step=None if own or running is None else _step(running),
@@ -77,16 +77,6 @@ def _orders_in(book: MissionState, mission: GivenOrder, state: GoalState) -> tup
     """Return the other orders in a state, oldest first."""
     others = (m for m in book.missions.values() if m.state is state and m.id != mission.id)
     return tuple(m.text[:_QUEUED] for m in sorted(others, key=lambda m: m.order))
-
-
-def _place_near(facts: SiteView, pose: Pose2) -> str | None:
-    near = [
-        (hypot(t.pose.x_m - pose.x_m, t.pose.y_m - pose.y_m), t.id)
-        for t in facts.targets.values()
-        if not t.room
-    ]
-    far_m, place = min(near, default=(float("inf"), ""))
-    return place if far_m <= NEAR_M else None
 
 
 def _step(running: Mission) -> str | None:
@@ -220,8 +210,7 @@ def _detail(facts: SiteView, step: StepRecord) -> Bilingual:
 
 
 def _describe_places(facts: SiteView, step: StepRecord) -> Bilingual:
-    wanted = (step.place,) if step.place else step.places
-    names = [facts.targets[p].name if p in facts.targets else say_same(p) for p in wanted]
+    names = [name_place(facts, place) for place in places_of(step)]
     if step.reason is None:
         return list_names(names)
     if not names:

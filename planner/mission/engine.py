@@ -88,11 +88,17 @@ class Engine:
     @property
     def leg(self) -> Leg | None:
         """Return the leg that is wanted now, for people to see; None while standing is wanted."""
-        following, wanted = self._following, motion_request(self.book)
-        if following is None or (following.mission, following.leg) != (wanted.mission, wanted.leg):
+        following = self._wanted(motion_request(self.book))
+        if following is None:
             return None
         doubt = standing_doubt(self.book)
         return Leg(following.mission, following.leg, following.path.points, doubt)
+
+    def _wanted(self, wanted: MotionRequest) -> Following | None:
+        """Return the path that is followed, where it is that of the leg that is wanted."""
+        now = self._following
+        ours = now is not None and (now.mission, now.leg) == (wanted.mission, wanted.leg)
+        return now if ours else None
 
     def way_ahead(self, reach_m: float) -> WayAhead | None:
         """Return the path from the robot on; None while it is to stand."""
@@ -249,11 +255,8 @@ class Engine:
 
     def _cut(self, status: Status) -> Horizon | None:
         """Cut the horizon of the leg that is wanted, on the pose of this status."""
-        following, wanted = self._following, motion_request(self.book)
-        pose = status.base_in_map
+        following, pose = self._wanted(motion_request(self.book)), status.base_in_map
         if following is None or pose is None:
-            return None
-        if (following.mission, following.leg) != (wanted.mission, wanted.leg):
             return None
         horizon = cut(self._slow(following), pose, following.progress_m)
         following.progress_m = horizon.progress_m
@@ -271,11 +274,7 @@ class Engine:
     def _course(self, horizon: Horizon | None) -> Course:
         """Return the course for the bridge now; ``horizon`` was cut on the status answered."""
         self._wish = wanted = motion_request(self.book)
-        following = self._following
-        ours = following is not None and (following.mission, following.leg) == (
-            wanted.mission,
-            wanted.leg,
-        )
+        ours = self._wanted(wanted) is not None
         if wanted.leg is None or not ours or horizon is None or not horizon.points:
             return Course(wanted.grant)
         return Course(wanted.grant, wanted.leg, horizon.points, horizon.final)

@@ -19,6 +19,8 @@ from planner.bridge_client.bridge_status import standing
 from planner.mission.activity import Driving, LegHolds, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.events import Routed
 from planner.mission.legs import (
+    MAX_ROUTES,
+    RETRY_S,
     abandon_route,
     ask_route,
     detour_failed,
@@ -59,8 +61,6 @@ OCCUPIED = "goal_occupied"
 """The route search's code where something not on the map leaves no floor beside the goal."""
 MAX_APPROACHES = 2
 TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
-MAX_ROUTES = 5
-RETRY_S = 1.0
 TURNED_S, SLOWLY_MPS = 12.0, 0.2
 """Beside what stands 0.06 m away the gate lets the robot turn at 0.3 rad/s; then it drives off."""
 HOLDS_S = 2.0

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, hypot, inf, sin
 
 from planner.language.catalogue import message, say
 from planner.language.formatting import definite
@@ -15,11 +15,12 @@ from planner.mission.state import GivenOrder, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState
 from planner.site.polygon import contains
-from planner.site.site_view import SiteView
+from planner.site.site_view import SiteView, Target
 from wire import Pose2
 
 AHEAD_M = 1.0
 """What lies so far before a camera fills its picture."""
+NEAR_M = 1.0
 MAX_LIMITS_NAMED = 5
 MIN_LIMIT_SHARE = 0.02
 """A limit that was the nearest one in under 2 % of the statuses explains nothing."""
@@ -45,6 +46,17 @@ def spot_at(facts: SiteView, pose: Pose2 | None, place: str | None = None) -> Sp
         y_m=round(pose.y_m, 3),
         yaw_rad=round(pose.yaw_rad, 4),
     )
+
+
+def find_place_near(facts: SiteView, pose: Pose2) -> Target | None:
+    """Return the nearest place that is no room, where it is at hand."""
+    near = [
+        (hypot(t.pose.x_m - pose.x_m, t.pose.y_m - pose.y_m), t.id)
+        for t in facts.targets.values()
+        if not t.room
+    ]
+    far_m, place = min(near, default=(inf, ""))
+    return facts.targets[place] if far_m <= NEAR_M else None
 
 
 def looks_into(facts: SiteView, place: str, pose: Pose2 | None) -> bool:

@@ -145,7 +145,7 @@ def thinker(
             language=ask.language,
             runnable=means.plannable | vocabulary.calls,
             blind=means.blind,
-            things=things_of(classes) if means.detector else frozenset(),
+            things=known_words(classes) if means.detector else frozenset(),
             kinds=classes if means.detector else (),
             goal=ask.id,
             observed=ask.observed,
@@ -280,11 +280,3 @@ def _spoken_before(situation: Situation | None) -> tuple[str, ...]:
     fresh = [goal for goal in recent if goal.minutes * 60.0 <= LEANS_S]
     told = ((goal.order, goal.told if goal.outcome in _FOUND else "") for goal in fresh)
     return tuple(words for each in told for words in each if words)
-
-
-def things_of(classes: tuple[str, ...]) -> frozenset[str]:
-    """Return people's names for the things that a detector knows, in both languages.
-
-    None while it has not said what it knows: an unknown place is then told as one.
-    """
-    return known_words(classes)

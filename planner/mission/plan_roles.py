@@ -198,7 +198,7 @@ def stop_after_all(turn: Transaction, mission: Mission, event: Planned) -> None:
 
 def tell_left(rest: str) -> Bilingual | None:
     """Say that what followed a stop in the same breath was not done; None: nothing did."""
-    return say("goal.rest_left", text=_short(rest)) if rest else None
+    return say("goal.rest_left", text=rest[:60]) if rest else None
 
 
 def _tell_rest(turn: Transaction, mission: GivenOrder, plan: Plan | None) -> Bilingual | None:
@@ -209,7 +209,7 @@ def _tell_rest(turn: Transaction, mission: GivenOrder, plan: Plan | None) -> Bil
     if rest and turn.book.queue and _says_go_on(rest):  # not with what was just stopped
         end_paused(turn, mission.interrupted)
         waiting = turn.book.missions[turn.book.queue[0]]
-        return say("goal.rest_go_on", text=_short(waiting.text))
+        return say("goal.rest_go_on", text=waiting.text[:60])
     return tell_left(rest)
 
 
@@ -218,10 +218,6 @@ def _says_go_on(rest: str) -> bool:
     words = [*rest] if has_chinese(rest) else rest.split()
     joint = "" if has_chinese(rest) else " "
     return any(isinstance(parse(joint.join(words[:n])).intent, ResumeCommand) for n in (1, 2, 3))
-
-
-def _short(text: str) -> str:
-    return text[:60]
 
 
 def corrects(turn: Transaction, mission: Mission) -> bool:
@@ -233,5 +229,5 @@ def corrects(turn: Transaction, mission: Mission) -> bool:
 
 def ask_what_was_meant(book: MissionState, mission: GivenOrder) -> Bilingual:
     """Ask whether a sentence with a stop word in it was an order to do something."""
-    told, text = stop_told(book), _short(mission.text)
+    told, text = stop_told(book), mission.text[:60]
     return say("goal.doubtful_stop", told=told, text=text)

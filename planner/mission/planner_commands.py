@@ -38,7 +38,7 @@ from planner.mission.agents import NEEDED, hold_to_agent, is_agents, may_say
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.follow_up import last_orders
-from planner.mission.memory_lookup import FactCommands
+from planner.mission.memory_lookup import SPOKEN_BY, FactCommands
 from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
 from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
@@ -62,8 +62,6 @@ if TYPE_CHECKING:
     from planner.site.places import Place
     from planner.skill_files.keep import SkillKeeper
     from wire import HintVerdict, PoseHint
-
-SPOKEN_BY = "sentence"
 
 
 class HintLink(Protocol):
@@ -106,19 +104,21 @@ class PlannerCommands:
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
         mission = self._loop.book.missions.get(ask.id)
-        if self.desk is not None and mission is not None and is_of_order(mission):
+        if mission is None:
+            return take_back_offers(await self._brain(ask), self.refuse_offer)
+        if self.desk is not None and is_of_order(mission):
             return await self._think_of_order(self.desk, ask, mission)
-        if mission is not None and is_agents(mission.source):
-            return await self._think_of_agent(ask, mission)
-        if mission is not None:
-            by_person = ask.text == mission.words  # the newest, and not a model's question
-            said, words = parse(ask.own_words if by_person else ""), _WordsOf(self, mission)
-            found: Iterator[OrdersReading | CommandReading]
-            found = readings(said, words, BY_THE_PLANNER)
-            for reading in found:
-                if (taken := await self._take(reading, ask, mission)) is not None:
-                    return taken
-        return take_back_offers(await self._brain(ask), self.refuse_offer)
+        is_newest = ask.text == mission.words  # and not a model's question
+        said, words = parse(ask.own_words if is_newest else ""), _WordsOf(self, mission)
+        by_agent = is_agents(mission.source)
+        found: Iterator[OrdersReading | CommandReading] = readings(said, words, BY_THE_PLANNER)
+        for reading in found:
+            if by_agent and not (isinstance(reading, CommandReading) and may_say(reading.intent)):
+                return Planned(ask.id, NEEDED)  # it is a person's to say to the planner
+            if (taken := await self._take(reading, ask, mission)) is not None:
+                return taken
+        planned = take_back_offers(await self._brain(ask), self.refuse_offer)
+        return hold_to_agent(planned) if by_agent else planned
 
     async def _take(
         self, reading: OrdersReading | CommandReading, ask: AskBrain, mission: Mission
@@ -135,17 +135,6 @@ class PlannerCommands:
         if mission.steps:
             return None
         return Planned(ask.id, await self.carry_out(reading.intent, mission))
-
-    async def _think_of_agent(self, ask: AskBrain, mission: Mission) -> Planned:
-        """Answer an agent's questions to the planner; refuse what is a person's to say to it."""
-        by_agent = ask.text == mission.words
-        said, words = parse(ask.own_words if by_agent else ""), _WordsOf(self, mission)
-        for reading in readings(said, words, BY_THE_PLANNER):
-            if not isinstance(reading, CommandReading) or not may_say(reading.intent):
-                return Planned(ask.id, NEEDED)
-            if (taken := await self._take(reading, ask, mission)) is not None:
-                return taken
-        return hold_to_agent(take_back_offers(await self._brain(ask), self.refuse_offer))
 
     async def _think_of_order(self, desk: OrderDesk, ask: AskBrain, mission: Mission) -> Planned:
         """Plan the goal of a standing order; a reminder's words are fixed, and no brain's."""

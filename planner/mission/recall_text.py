@@ -61,7 +61,7 @@ def _name_question(facts: SiteView, ask: AskMemory) -> Bilingual:
     if place is not None:
         what = say("memory.asked_in", what=what, place=place.name)
     if ask.when is not None:
-        what = say("memory.asked_when", what=what, span=tell_span(ask.when))
+        what = say("memory.asked_when", what=what, span=say(f"memory.span_{ask.when}"))
     return what
 
 
@@ -70,11 +70,6 @@ def _offer(ask: AskMemory) -> tuple[Bilingual, ...]:
     if not ask.label or ask.label == PERSON or ask.when is not None or ask.witnessed:
         return ()
     return (say("memory.offer", what=tell_words(ask.label)),)
-
-
-def tell_span(when: Span) -> Bilingual:
-    """Name a time that was asked about."""
-    return say(f"memory.span_{when}")
 
 
 def _tell(facts: SiteView, memo: Memo, now: datetime) -> Bilingual:

@@ -14,7 +14,7 @@ from planner.bridge_client.bridge_status import standing
 from planner.mission.account import place_name
 from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.events import Surveyed
-from planner.mission.legs import ask_route, look_for_room
+from planner.mission.legs import RETRY_S, ask_route, look_for_room
 from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
@@ -41,9 +41,6 @@ from planner.mission.transaction import Transaction
 from planner.plan import Code
 from planner.skills import Fail, Way
 from wire import Pose2, Status, wrap
-
-RETRY_S = 1.0
-
 
 # The lidar's word --------------------------------------------------------------------------------
 

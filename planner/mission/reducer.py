@@ -70,8 +70,8 @@ from planner.plan import (
     Bilingual,
     Code,
     Outcome,
-    StepRecord,
     StepState,
+    places_of,
 )
 from planner.site.site_view import SiteView
 from planner.skills.object_matching import names_any
@@ -218,12 +218,8 @@ def _find_lost(mission: Mission, before: SiteView, now: SiteView) -> str | None:
         return None
     again = any(s.kind == "repeat" and s.state is StepState.RUNNING for s in mission.steps_ahead)
     ahead = (step for step in mission.steps_ahead if again or step.state in _AHEAD)
-    named = (place for step in ahead for place in _list_places(step))
+    named = (place for step in ahead for place in places_of(step))
     return next((p for p in named if p in before.targets and p not in now.targets), None)
-
-
-def _list_places(step: StepRecord) -> tuple[str, ...]:
-    return (step.place,) if step.place else step.places
 
 
 def _end(turn: Transaction, mission: Mission, name: Bilingual, facts: SiteView) -> None:

@@ -12,14 +12,15 @@ import json
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, message, say
 from planner.language.questions import looks_round
+from planner.mission.account import name_place
 from planner.mission.events import Planned
 from planner.mission.outcomes import plain_outcome
 from planner.mission.plan_check import NO_STEPS, UNASKED, ask_for_motion, unwalkable
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of
 from planner.mission.state import Mission
-from planner.mission.step_execution import begin_step, carry_out, next_step
-from planner.mission.step_failure import give_up
+from planner.mission.step_execution import begin_step, carry_out
+from planner.mission.step_failure import give_up, to_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import BrainCause, Cause, GoalFact
 from planner.plan import (
@@ -34,8 +35,8 @@ from planner.plan import (
     StepPlan,
     StepRecord,
     StepState,
+    places_of,
     plan_record,
-    say_same,
 )
 from planner.plan.plan_walk import asked_of, close_open
 from planner.site.site_view import SiteView
@@ -158,7 +159,7 @@ def _adopt(
         tried=(*mission.tried, fingerprint(steps)),
         failure=None,
     )
-    mission = next_step(turn, mission)
+    mission = to_step(turn, mission, mission.step + 1)
     if mission.confirm or question is not None:
         yield_robot(turn, mission, BrainCause.NEEDS_YES, reason, question)
     else:
@@ -241,13 +242,10 @@ def _make_key(step: StepRecord) -> tuple[str, str, str | None, int | None, int |
 def _places(facts: SiteView, step: StepRecord) -> tuple[str, ...]:
     if step.kind == "return_home":
         return (facts.home,)
-    if step.kind == "come_back":
-        return (BACK,)
-    return (step.place,) if step.place else step.places
+    return (BACK,) if step.kind == "come_back" else places_of(step)
 
 
 def _name(facts: SiteView, place: str) -> Bilingual:
     if place == BACK:
         return say("confirmation.start")
-    target = facts.targets.get(place)
-    return target.name if target is not None else say_same(place)
+    return name_place(facts, place)

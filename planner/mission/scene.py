@@ -13,7 +13,7 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import CATALOGUE, say
 from planner.language.object_classes import KINDS
 from planner.language.object_names import name_object
-from planner.mission.account import BACK, name_point
+from planner.mission.account import BACK, name_place, name_point
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
 from planner.mission.queue import skill_state_now
@@ -74,7 +74,7 @@ def scene_of(
         unix_s=turn.now_unix_s,
         local_offset_s=turn.book.local_offset_s,
         upon=upon_yes(turn.book.facts, mission),
-        thinks=can_think(turn.book.rules, mission),
+        thinks=_can_think(turn.book.rules, mission),
         left_m=GRANT_M - (mission.metres - mission.step_m - mission.granted_at_m),
         afterwards=_ways_after(turn.book.facts, mission),
         offers=_may_offer(turn, mission),
@@ -176,8 +176,7 @@ def name_deed(facts: SiteView, step: StepRecord) -> Bilingual:
     if step.kind == "go_to_pose":
         return say("deed.drive_to", name=name_point(step))
     if place:
-        name = facts.targets[place].name if place in facts.targets else say_same(place)
-        return say("deed.drive_to", name=name)
+        return say("deed.drive_to", name=name_place(facts, place))
     code = f"deed.{step.kind}"
     return say(code if CATALOGUE.has(code) else "deed.go_on", what=name_sought(step))
 
@@ -188,7 +187,7 @@ def name_sought(step: StepRecord) -> Bilingual:
     return name_object(words) if words in KINDS else say_same(words)
 
 
-def can_think(rules: Rules, mission: Planning) -> bool:
+def _can_think(rules: Rules, mission: Planning) -> bool:
     """Tell whether the brain that planned a goal may read an answer: the offline one has no way."""
     brain = mission.brain
     return brain is not None and brain.name != OFFLINE and mission.decides < rules.decides

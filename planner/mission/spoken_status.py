@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.bridge_client.bridge_status import standing, worst_row
 from planner.language.catalogue import message, say, say_or_quote
 from planner.language.formatting import definite
 from planner.mission.account import DRIVEN, place_name
-from planner.mission.outcomes import spot_at
+from planner.mission.outcomes import find_place_near, spot_at
 from planner.mission.state import Mission, MissionState
 from planner.plan import Bilingual, Code, GoalState, say_same
 from planner.site.polygon import area_m2, border_distance_m, contains
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from planner.site.site_view import Target
 
 
-NEAR_M = 1.0
 OLD_S = 1.0
 DRIVES_MPS = 0.02
 """Slower than this, a robot that does not stand is turning."""
@@ -81,15 +79,8 @@ def tell_battery(book: MissionState, age_s: float) -> Bilingual:
 
 def _spot(facts: SiteView, pose: Pose2) -> Bilingual:
     room = spot_at(facts, pose).room
-    near = min(
-        (t for t in facts.targets.values() if not t.room),
-        key=lambda t: hypot(t.pose.x_m - pose.x_m, t.pose.y_m - pose.y_m),
-        default=None,
-    )
-    is_near = (
-        near is not None and hypot(near.pose.x_m - pose.x_m, near.pose.y_m - pose.y_m) <= NEAR_M
-    )
-    by = near.name if near is not None and is_near else None
+    near = find_place_near(facts, pose)
+    by = near.name if near is not None else None
     inside = facts.targets[room].name if room is not None else None
     if inside is not None and by is not None:
         return say("status.spot_both", room=inside, place=by)

@@ -37,6 +37,7 @@ from planner.mission.perception_events import (
 )
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
 from planner.mission.recovery_steps import leave_silence, recover, watch_manoeuvre
+from planner.mission.state import Mission
 from planner.mission.step_execution import begin_step, end_wait_if_due
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -121,7 +122,8 @@ def _interrupt(turn: Transaction, status: Status, silent_s: float) -> bool:
     if hold is not None:
         pause_running(turn, _fault_reason(status) if hold == "fault" else hold)
         return True
-    if not _drives_on(turn):
+    mission = turn.running
+    if mission is None or not any(map(moves, mission.steps_ahead)):
         return False
     if silent_s > SILENCE_S:
         pause_running(turn, fault("BRAIN_GONE"))
@@ -130,7 +132,7 @@ def _interrupt(turn: Transaction, status: Status, silent_s: float) -> bool:
     if cause is not None:
         pause_running(turn, cause)
         return True
-    return _end_spent(turn, status) or _held_too_long(turn, status)
+    return _end_spent(turn, mission, status) or _held_too_long(turn, status)
 
 
 def _fault_reason(status: Status) -> str:
@@ -141,16 +143,7 @@ def _fault_reason(status: Status) -> str:
     return fault(max(rows, key=lambda r: r.for_s).row if rows else "HELD")
 
 
-def _drives_on(turn: Transaction) -> bool:
-    """Tell whether the running mission drives now or will."""
-    mission = turn.running
-    return mission is not None and any(map(moves, mission.steps_ahead))
-
-
-def _end_spent(turn: Transaction, status: Status) -> bool:
-    mission = turn.running
-    if mission is None:
-        return False
+def _end_spent(turn: Transaction, mission: Mission, status: Status) -> bool:
     # Rows outlive the mission they were about; only a row seen on our own leg is ours.
     ours = status.leg is not None and status.leg.mission == mission.grant_name
     code = refused_grant(status, mission.grant_name) if status.grant is None else None

@@ -137,7 +137,10 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
         case Think():
             _decide(turn, mission, act)
         case Finish():
-            finish_step(turn, StepState.SUCCEEDED, **act.figures, **_result(act))
+            told = (
+                {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
+            )
+            finish_step(turn, StepState.SUCCEEDED, **act.figures, **told)
         case Skip():
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
         case Fail():
@@ -206,11 +209,6 @@ def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp | CallTool) -
     turn.emit(AskMemory(mission.id, ticket, *asked))
 
 
-def _result(act: Finish) -> dict[str, object]:
-    """Return a looking step's result, for its record."""
-    return {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
-
-
 def go_on(
     turn: Transaction,
     then: SkillStateBase | None,
@@ -275,21 +273,13 @@ def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
         return
     at = go_on_walking(mission.steps, mission.step, RoundBudget(turn.now_unix_s, mission.metres))
     if at.unmet:
-        said = message(Code.UNMET, rounds=_rounds_of(mission))
+        parent = parent_of(mission.steps, mission.step)
+        rounds = mission.steps[parent].round if parent is not None else 1
+        said = message(Code.UNMET, rounds=rounds)
         fail_step(turn, Fail(Code.UNMET, Code.UNMET.value, said))
         return
     to_step(turn, turn.put_steps(mission, at.row), at.index)
     begin_step(turn)
-
-
-def _rounds_of(mission: Mission) -> int:
-    parent = parent_of(mission.steps, mission.step)
-    return mission.steps[parent].round if parent is not None else 1
-
-
-def next_step(turn: Transaction, mission: Mission) -> Mission:
-    """Point at the next step."""
-    return to_step(turn, mission, mission.step + 1)
 
 
 def speak_if_safe(turn: Transaction) -> None:
