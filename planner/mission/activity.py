@@ -194,34 +194,33 @@ class Observing(_StepActivity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AskingImage(_StepActivity):
+class AwaitingAnswer(_StepActivity):
+    """Stand until somebody has answered."""
+
+    ticket: int
+    """The question whose answer is waited for."""
+    until_s: float
+    """When the wait ends without one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AskingImage(AwaitingAnswer):
     """Stand until a question about the picture is answered."""
 
     act: AskImage
     since_s: float
-    ticket: int
-    """The question whose answer is waited for."""
-    until_s: float
-    """When the wait ends without one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LookingUp(_StepActivity):
+class LookingUp(AwaitingAnswer):
     """Stand until memory has answered."""
 
-    ticket: int
-    """The question whose answer is waited for."""
-    until_s: float
-    """When the wait ends without one."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CallingTool(_StepActivity):
+class CallingTool(AwaitingAnswer):
     """Stand until a tool has answered; it is asked once the step's beginning is on disk."""
 
-    ticket: int
     agreed: bool
-    until_s: float
     is_sent: bool = False
 
 

@@ -185,17 +185,8 @@ class GoalChange:
     id: str
 
 
-Effect = (
-    AskBrain
-    | DropBrain
-    | ClearHold
-    | AskRoute
-    | AskEyes
-    | AskMemory
-    | AskTool
-    | KeepPicture
-    | SavePicture
-    | Journal
-    | SayAloud
-    | GoalChange
+TaskEffect = (
+    AskBrain | DropBrain | AskRoute | AskEyes | AskMemory | AskTool | KeepPicture | SavePicture
 )
+"""What is done beside the loop."""
+Effect = TaskEffect | ClearHold | Journal | SayAloud | GoalChange

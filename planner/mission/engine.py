@@ -88,13 +88,13 @@ class Engine:
     @property
     def leg(self) -> Leg | None:
         """Return the leg that is wanted now, for people to see; None while standing is wanted."""
-        following = self._wanted(motion_request(self.book))
+        following = self._path_of(motion_request(self.book))
         if following is None:
             return None
         doubt = standing_doubt(self.book)
         return Leg(following.mission, following.leg, following.path.points, doubt)
 
-    def _wanted(self, wanted: MotionRequest) -> Following | None:
+    def _path_of(self, wanted: MotionRequest) -> Following | None:
         """Return the path that is followed, where it is that of the leg that is wanted."""
         now = self._following
         ours = now is not None and (now.mission, now.leg) == (wanted.mission, wanted.leg)
@@ -255,7 +255,7 @@ class Engine:
 
     def _cut(self, status: Status) -> Horizon | None:
         """Cut the horizon of the leg that is wanted, on the pose of this status."""
-        following, pose = self._wanted(motion_request(self.book)), status.base_in_map
+        following, pose = self._path_of(motion_request(self.book)), status.base_in_map
         if following is None or pose is None:
             return None
         horizon = cut(self._slow(following), pose, following.progress_m)
@@ -274,7 +274,7 @@ class Engine:
     def _course(self, horizon: Horizon | None) -> Course:
         """Return the course for the bridge now; ``horizon`` was cut on the status answered."""
         self._wish = wanted = motion_request(self.book)
-        ours = self._wanted(wanted) is not None
+        ours = self._path_of(wanted) is not None
         if wanted.leg is None or not ours or horizon is None or not horizon.points:
             return Course(wanted.grant)
         return Course(wanted.grant, wanted.leg, horizon.points, horizon.final)

@@ -14,7 +14,7 @@ from dataclasses import replace
 from math import hypot, pi
 from typing import TYPE_CHECKING
 
-from planner.language.antecedents import complete_person, fits, name_antecedents, thing_of
+from planner.language.changes.antecedents import complete_person, fits, name_antecedents, thing_of
 from planner.language.changes.reader import read_changes
 from planner.language.commands import HereCommand, Replace, intent_of
 from planner.language.folding import has_chinese

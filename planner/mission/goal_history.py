@@ -24,7 +24,7 @@ from planner.plan import ENDED, Frozen, GoalState, Language
 from processes.parent_death import child_command
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from planner.mission.state import Mission
@@ -195,30 +195,27 @@ class GoalHistory:
         shown = tuple(_show(row) for row in found[: query.limit])
         return HistoryPage(goals=shown, next=shown[-1].order if len(found) > len(shown) else None)
 
-    def _changed_since(self, cursor: int, limit: int) -> ChangedGoals:
+    def _read(self, asked: sa.TextClause, **values: str | int) -> Sequence[Any]:
+        """Return the rows that are asked for; none where nothing was ever ordered here."""
         if not self._path.exists():
-            return ChangedGoals((), cursor)
+            return ()
         with self._engine.connect() as connection:
-            found = connection.execute(_CHANGED, {"cursor": cursor, "limit": limit}).all()
+            return connection.execute(asked, values).all()
+
+    def _changed_since(self, cursor: int, limit: int) -> ChangedGoals:
+        found = self._read(_CHANGED, cursor=cursor, limit=limit)
         missions = tuple(read_mission(record) for record, _ in found)
         return ChangedGoals(missions, found[-1].seq if found else cursor)
 
     def _find_key(self, key: str) -> GoalKey | None:
-        if not self._path.exists():
-            return None
-        with self._engine.connect() as connection:
-            found = connection.execute(_KEY, {"key": key}).one_or_none()
-        return GoalKey(*found) if found is not None else None
+        found = self._read(_KEY, key=key)
+        return GoalKey(*found[0]) if found else None
 
     def _story(self, goal_id: str) -> tuple[Mission, GoalStory]:
-        if not self._path.exists():
+        found = self._read(_RECORD, goal=goal_id)
+        if not found:
             raise UnknownGoal(goal_id, ())
-        with self._engine.connect() as connection:
-            record = connection.execute(_RECORD, {"goal": goal_id}).scalar()
-            changed = connection.execute(_CHANGES, {"goal": goal_id}).all()
-        if record is None:
-            raise UnknownGoal(goal_id, ())
-        mission = read_mission(record)
+        mission, changed = read_mission(found[0].record), self._read(_CHANGES, goal=goal_id)
         changes: list[StateChange] = []
         for state, at_unix_s in changed:
             if not changes or changes[-1].state != state:

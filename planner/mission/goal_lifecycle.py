@@ -12,7 +12,7 @@ from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import as_point, departure_of, newest_order, way_back_of
 from planner.mission.open_questions import (
     TAKES_YES,
-    Wait,
+    AwaitedWord,
     ask_anew,
     ask_plainly,
     close_older,
@@ -234,13 +234,13 @@ def reply(turn: Transaction, mission: Mission, text: str, by: str) -> None:
     mission = keep_answer(turn, mission, text, by)
     ask_anew(turn, mission)
     agreed, waits = parse(text).consent, wait_of(mission)
-    if waits is Wait.STEP:
+    if waits is AwaitedWord.STEP:
         take_answer(turn, mission, text)
     elif agreed is False and waits in TAKES_YES:
         take_no(turn, mission)
-    elif waits is Wait.PLAN and agreed:
+    elif waits is AwaitedWord.PLAN and agreed:
         ready(turn, mission, PersonCause.AGREES)
-    elif waits is Wait.PLAN:
+    elif waits is AwaitedWord.PLAN:
         ask_plainly(turn, mission)
     elif (offered := find_offered_plan(mission, text)) is not None:
         mission = note_answer(turn, mission, text)

@@ -181,7 +181,7 @@ def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: st
 def _waits_on(turn: Transaction, mission: Progress, leg: LegHolds) -> bool:
     """Tell whether the wait that is in hand goes on: what stands there may leave any moment."""
     rung, since_s = rung_of(mission.recovery), leg.rung_since_s
-    waits = rung.recovery is Recovery.WAIT and since_s is not None
+    waits = rung.recovery is Recovery.WAIT
     return waits and since_s is not None and turn.now_s - since_s < rung.seconds
 
 

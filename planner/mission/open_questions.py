@@ -12,8 +12,8 @@ from __future__ import annotations
 from enum import StrEnum
 
 from planner.brain.interface import OFFLINE
-from planner.language.antecedents import complete_person, complete_place
 from planner.language.catalogue import join, list_names, message, say
+from planner.language.changes.antecedents import complete_person, complete_place
 from planner.language.changes.reader import read_changes
 from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
@@ -56,7 +56,7 @@ WAITS = frozenset({GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATIO
 _YES_OR_NO = say("question.yes_or_no")
 
 
-class Wait(StrEnum):
+class AwaitedWord(StrEnum):
     """Name what a goal waits for from a person."""
 
     STEP = "the answer to a question of one of its own steps"
@@ -66,12 +66,12 @@ class Wait(StrEnum):
     FREELY = "whatever is answered: a model asks about the order, offers none and reads it"
 
 
-ABOUT_ORDER = frozenset({Wait.OFFER, Wait.ORDER, Wait.FREELY})
-TAKES_YES = frozenset({Wait.STEP, Wait.PLAN, Wait.OFFER})
+ABOUT_ORDER = frozenset({AwaitedWord.OFFER, AwaitedWord.ORDER, AwaitedWord.FREELY})
+TAKES_YES = frozenset({AwaitedWord.STEP, AwaitedWord.PLAN, AwaitedWord.OFFER})
 """A plain yes or no answers these."""
 
 
-def wait_of(mission: Mission) -> Wait | None:
+def wait_of(mission: Mission) -> AwaitedWord | None:
     """Return what a goal waits for from a person; None: for nothing.
 
     An order to stop is no offer: it is taken from a person's own words alone.
@@ -80,18 +80,22 @@ def wait_of(mission: Mission) -> Wait | None:
     if mission.state not in WAITS:
         return None
     if mission.state is GoalState.AWAITING_CONFIRMATION:
-        return Wait.PLAN
+        return AwaitedWord.PLAN
     if step is not None and step.state is StepState.RUNNING:
-        return Wait.STEP
+        return AwaitedWord.STEP
     if plan is None or len(plan.options) == 1:
-        return Wait.OFFER if plan is not None and not is_stop(plan.options[0].text) else Wait.ORDER
+        return (
+            AwaitedWord.OFFER
+            if plan is not None and not is_stop(plan.options[0].text)
+            else AwaitedWord.ORDER
+        )
     model = brain is not None and brain.name != OFFLINE
-    return Wait.FREELY if model and not plan.options else Wait.ORDER
+    return AwaitedWord.FREELY if model and not plan.options else AwaitedWord.ORDER
 
 
 def find_offer(mission: Mission) -> str | None:
     """Return the one order that a brain's question offers; None where it offers none or several."""
-    offers = mission.plan is not None and wait_of(mission) is Wait.OFFER
+    offers = mission.plan is not None and wait_of(mission) is AwaitedWord.OFFER
     return mission.plan.options[0].text if mission.plan is not None and offers else None
 
 
@@ -265,14 +269,11 @@ def _offer_sure_reading(turn: Transaction, mission: Mission) -> bool:
 
 def ask_plainly(turn: Transaction, mission: Mission) -> None:
     """Ask for a yes or no to a plan, after an answer that is neither."""
-    asked = mission.outcome.message if mission.outcome is not None else _shall_i(mission.text)
+    shall_i = message(Code.ASKED, text=say("question.shall_i_do", text=mission.text[:200]))
+    asked = mission.outcome.message if mission.outcome is not None else shall_i
     if not asked.en.startswith(_YES_OR_NO.en):
         asked = join((_YES_OR_NO, asked), "joint.none")
     turn.put(mission, outcome=Outcome(code=Code.CONFIRM, message=asked))
-
-
-def _shall_i(text: str) -> Bilingual:
-    return message(Code.ASKED, text=say("question.shall_i_do", text=text[:200]))  # fmt: skip
 
 
 def end_unanswered(turn: Transaction) -> None:
@@ -314,23 +315,23 @@ def close_older(turn: Transaction, new: GivenOrder) -> None:
 
 def has_room(book: MissionState) -> bool:
     """Tell whether one more order can be taken, perhaps in place of a question."""
-    open_ = [m for m in book.missions.values() if not m.has_ended]
-    return len(open_) < MAX_OPEN or bool(list_waiting(book))
+    return count_open(book) < MAX_OPEN or bool(list_waiting(book))
+
+
+def count_open(book: MissionState) -> int:
+    """Count the goals that have not ended."""
+    return sum(not m.has_ended for m in book.missions.values())
 
 
 def make_room(turn: Transaction, text: str) -> None:
     """End the oldest questions while goals are more than may be open: about orders first."""
-    while True:
-        open_ = [m for m in turn.book.missions.values() if not m.has_ended]
-        waiting = list_waiting(turn.book)
-        if len(open_) < MAX_OPEN or not waiting:
-            return
+    while count_open(turn.book) >= MAX_OPEN and (waiting := list_waiting(turn.book)):
         _make_way(turn, min(waiting, key=_worth), text)
 
 
 def _worth(mission: Mission) -> tuple[int, int]:
     waits = wait_of(mission)
-    return (0 if waits in ABOUT_ORDER else 1 if waits is Wait.PLAN else 2), mission.order
+    return (0 if waits in ABOUT_ORDER else 1 if waits is AwaitedWord.PLAN else 2), mission.order
 
 
 def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:

@@ -126,11 +126,6 @@ def ended_outcome(
     )
 
 
-def thoughts(count: int) -> Bilingual:
-    """Name the thoughts that a goal may have under way, as a budget."""
-    return say("account.thoughts", count=count)
-
-
 def failure(
     facts: SiteView, mission: Mission, step: StepRecord | None, code: Code, row: str
 ) -> Bilingual:

@@ -22,8 +22,8 @@ from planner.brain.offline_brain import read_untouched
 from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
-from planner.language.antecedents import ORDERS_BACK
 from planner.language.catalogue import join, message, say
+from planner.language.changes.antecedents import ORDERS_BACK
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
@@ -90,14 +90,11 @@ class Hearing:
                 self._expect(draft.steps)
             if self._clock() - told_s >= TELL_S:
                 told_s = self._clock()
-                self._publish(_event(goal, draft))
+                written = [s.model_dump(mode="json", exclude_none=True) for s in draft.steps]
+                told = {"type": "thinking", "goal": goal, "text": draft.text, "steps": written}
+                self._publish(told)
 
         return hear
-
-
-def _event(goal: str, draft: Draft) -> dict[str, Any]:
-    steps = [step.model_dump(mode="json", exclude_none=True) for step in draft.steps]
-    return {"type": "thinking", "goal": goal, "text": draft.text, "steps": steps}
 
 
 log = logging.getLogger(__name__)

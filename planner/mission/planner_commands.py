@@ -34,7 +34,7 @@ from planner.language.reading import CommandReading, OrdersReading
 from planner.language.schedule import ChangeOrders, OrderCommand
 from planner.language.sentence import SaidSentence, parse
 from planner.mission import events
-from planner.mission.agents import NEEDED, hold_to_agent, is_agents, may_say
+from planner.mission.agents import MAY_ASK, NEEDED, hold_to_agent, is_agents
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
 from planner.mission.follow_up import last_orders
@@ -113,7 +113,9 @@ class PlannerCommands:
         by_agent = is_agents(mission.source)
         found: Iterator[OrdersReading | CommandReading] = readings(said, words, BY_THE_PLANNER)
         for reading in found:
-            if by_agent and not (isinstance(reading, CommandReading) and may_say(reading.intent)):
+            if by_agent and not (
+                isinstance(reading, CommandReading) and isinstance(reading.intent, MAY_ASK)
+            ):
                 return Planned(ask.id, NEEDED)  # it is a person's to say to the planner
             if (taken := await self._take(reading, ask, mission)) is not None:
                 return taken
@@ -257,7 +259,7 @@ class PlannerCommands:
         try:
             place, new = await self._memory.teach(Lesson(en=name, by=SPOKEN_BY))
         except PlaceRefusal as refused:
-            return not_kept(refused)
+            return _refuse(Code.PLACE_NOT_KEPT, refused.why)
         names = Bilingual(en=place.name.en, zh=place.name.zh)
         if new:
             return AnswerPlan(text=say("commands.remembered", names=names))
@@ -280,7 +282,7 @@ class PlannerCommands:
         try:
             place = await self._memory.forget(name)
         except PlaceRefusal as refused:
-            return not_kept(refused)
+            return _refuse(Code.PLACE_NOT_KEPT, refused.why)
         return AnswerPlan(
             text=say("commands.forgotten", name=Bilingual(en=place.name.en, zh=place.name.zh))
         )
@@ -293,11 +295,6 @@ _SAID: dict[str, tuple[Bilingual, Bilingual]] = {
     "cancel": (say("commands.cancelled"), say("commands.nothing_to_cancel")),
 }
 """What is said when it was done, and when there was nothing to do it to."""
-
-
-def not_kept(refused: PlaceRefusal) -> Refuse:
-    """Say why a place was not kept or not forgotten."""
-    return _refuse(Code.PLACE_NOT_KEPT, refused.why)
 
 
 def _refuse(code: Code, why: Bilingual) -> Refuse:

@@ -26,7 +26,14 @@ from planner.mission import agents
 from planner.mission.errors import IdempotencyConflict, PersonMissing, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of
-from planner.mission.open_questions import TAKES_YES, Wait, has_room, list_waiting, wait_of
+from planner.mission.open_questions import (
+    TAKES_YES,
+    AwaitedWord,
+    count_open,
+    has_room,
+    list_waiting,
+    wait_of,
+)
 from planner.mission.request_keys import Repeats, body_of, request_of
 from planner.mission.state import RESERVED_KEYS, GoalKey, MissionState, goal_to_end, newest_paused
 from planner.mission.transitions import refusal
@@ -101,8 +108,7 @@ def receive(
         changed=lean.changed if lean is not None else None,
     )
     if full and not local:
-        open_goals = sum(not m.has_ended for m in book.missions.values())
-        return Reception(marked, refused=QueueFull(open_goals))
+        return Reception(marked, refused=QueueFull(count_open(book)))
     ends = goal_to_end(book) if lean is not None and lean.ends else None
     return Reception(marked, takes_back=ends, request=request_of(given, key))
 
@@ -130,8 +136,7 @@ def receive_points(
     if (known := _find_known(given, key, repeats)) is not None:
         return known
     if not has_room(book) or (by_agent and not agents.has_room(book)):
-        open_goals = sum(not m.has_ended for m in book.missions.values())
-        return Reception(given, refused=QueueFull(open_goals))
+        return Reception(given, refused=QueueFull(count_open(book)))
     return Reception(given, request=request_of(given, key))
 
 
@@ -258,7 +263,7 @@ def receive_answer(
         return AnswerReception(command=Cancel(goal_id), sentence=said.text, lean=lean)
     waits = wait_of(book.missions[goal_id])
     own_question = waits in TAKES_YES  # "go on" may be its answer
-    declines = said.consent is False and (own_question or waits is Wait.FREELY)
+    declines = said.consent is False and (own_question or waits is AwaitedWord.FREELY)
     if (said.stays_put and not declines) or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
     return AnswerReception(command=Reply(goal_id, said.text, by))
@@ -315,7 +320,7 @@ def goals_answered_by(book: MissionState, said: SaidSentence) -> tuple[str, ...]
     taking = {m.id: m.updated_unix_s for m in waiting if wait_of(m) in TAKES_YES}
     if not taking:  # "Do you mean the kitchen?" of a model: it reads the word itself
         alone = len(waiting) == 1 and intent is None
-        return tuple(m.id for m in waiting if alone and wait_of(m) is Wait.FREELY)
+        return tuple(m.id for m in waiting if alone and wait_of(m) is AwaitedWord.FREELY)
     newest_unix_s = max(taking.values())
     return tuple(m.id for m in waiting if m.id in taking or m.updated_unix_s >= newest_unix_s)
 

@@ -11,37 +11,10 @@ from __future__ import annotations
 
 from planner.bridge_client.ownership import STAND, MotionRequest
 from planner.language.catalogue import list_names, message
+from planner.mission import events
 from planner.mission.activity import AskingImage, Driving
 from planner.mission.effects import AskBrain, Effect
-from planner.mission.events import (
-    Cancel,
-    ChangeSpeed,
-    ClosingIn,
-    Command,
-    Confirm,
-    Event,
-    Fact,
-    Journalled,
-    Known,
-    Move,
-    Oncoming,
-    Pause,
-    Planned,
-    Recalled,
-    Reply,
-    Restarted,
-    Resume,
-    Routed,
-    RouteDoubted,
-    Seen,
-    Sighted,
-    Stopped,
-    Submitted,
-    Surveyed,
-    Tick,
-    Told,
-    ToolAnswered,
-)
+from planner.mission.events import Command, Event, Fact
 from planner.mission.goal_lifecycle import (
     confirm,
     pause,
@@ -144,35 +117,35 @@ def looks_widely(book: MissionState, open_classes: tuple[str, ...]) -> bool:
 
 def _fact(turn: Transaction, event: Fact) -> None:  # noqa: C901, PLR0912  # one case an event
     match event:
-        case Seen():
+        case events.Seen():
             on_status(turn, event.status, event.off_path, event.left_m)
-        case Sighted():
+        case events.Sighted():
             on_sight(turn, event.sight, event.classes)
-        case Told():
+        case events.Told():
             on_told(turn, event.id, event.ticket, event.answer)
-        case Recalled():
+        case events.Recalled():
             on_recalled(turn, event)
-        case ToolAnswered():
+        case events.ToolAnswered():
             on_tool_answered(turn, event)
-        case Tick():
+        case events.Tick():
             on_tick(turn)
-        case Journalled():
+        case events.Journalled():
             turn.set(safe=max(turn.book.safe, min(event.entry, turn.book.written)))
-        case Routed():
+        case events.Routed():
             on_routed(turn, event)
-        case RouteDoubted() | Oncoming() | ClosingIn():
+        case events.RouteDoubted() | events.Oncoming() | events.ClosingIn():
             on_way_news(turn, event)
-        case Surveyed():
+        case events.Surveyed():
             on_survey(turn, event)
-        case Planned():
+        case events.Planned():
             take_plan(turn, event)
-        case Submitted():
+        case events.Submitted():
             submit(turn, event)
-        case Stopped():
+        case events.Stopped():
             stop(turn, event.source)
-        case Restarted():
+        case events.Restarted():
             restart(turn, event)
-        case Known():
+        case events.Known():
             on_known(turn, event.facts)
 
 
@@ -181,19 +154,19 @@ def _command(turn: Transaction, event: Command) -> None:
     if mission is None or refusal(turn.book, event) is not None:
         return
     match event:
-        case Cancel():
+        case events.Cancel():
             cancel(turn, mission)
-        case Pause():
+        case events.Pause():
             pause(turn, mission)
-        case Resume():
+        case events.Resume():
             resume(turn, mission)
-        case Confirm():
+        case events.Confirm():
             confirm(turn, mission, event.by)
-        case Reply():
+        case events.Reply():
             reply(turn, mission, event.text, event.by)
-        case Move():
+        case events.Move():
             reorder(turn, event.id, event.before)
-        case ChangeSpeed():
+        case events.ChangeSpeed():
             change_speed(turn, mission, slower=event.slower)
 
 

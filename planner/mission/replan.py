@@ -213,7 +213,9 @@ def _elsewhere(
     fresh = [p for step in steps for p in _places(facts, step) if p not in known]
     if not fresh:
         return None
-    return say("confirmation.elsewhere", name=_name(facts, fresh[0]))
+    back = fresh[0] == BACK
+    name = say("confirmation.start") if back else name_place(facts, fresh[0])
+    return say("confirmation.elsewhere", name=name)
 
 
 def _roaming(before: tuple[StepRecord, ...], steps: tuple[StepRecord, ...]) -> Bilingual | None:
@@ -243,9 +245,3 @@ def _places(facts: SiteView, step: StepRecord) -> tuple[str, ...]:
     if step.kind == "return_home":
         return (facts.home,)
     return (BACK,) if step.kind == "come_back" else places_of(step)
-
-
-def _name(facts: SiteView, place: str) -> Bilingual:
-    if place == BACK:
-        return say("confirmation.start")
-    return name_place(facts, place)

@@ -17,7 +17,7 @@ from planner.mission.account import BACK, name_place, name_point
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
 from planner.mission.queue import skill_state_now
-from planner.mission.state import ORDER_SOURCE, Mission, Planning
+from planner.mission.state import ORDER_SOURCE, Mission
 from planner.mission.transaction import Transaction
 from planner.plan import (
     JUDGED,
@@ -39,7 +39,6 @@ from wire import Pose2
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.state import Rules
     from planner.site.site_view import SiteView
 
 
@@ -53,7 +52,8 @@ def scene_of(
     activity = turn.book.activity if mission.id == turn.book.running else None
     began_s = activity.since_s if isinstance(activity, TIMED) else None
     since_s = began_s if began_s is not None else turn.now_s
-    step = mission.steps[mission.step]
+    step, brain = mission.steps[mission.step], mission.brain
+    reads = brain is not None and brain.name != OFFLINE  # the offline one has no way
     return Scene(
         step=step,
         facts=turn.book.facts,
@@ -74,7 +74,7 @@ def scene_of(
         unix_s=turn.now_unix_s,
         local_offset_s=turn.book.local_offset_s,
         upon=upon_yes(turn.book.facts, mission),
-        thinks=_can_think(turn.book.rules, mission),
+        thinks=reads and mission.decides < turn.book.rules.decides,
         left_m=GRANT_M - (mission.metres - mission.step_m - mission.granted_at_m),
         afterwards=_ways_after(turn.book.facts, mission),
         offers=_may_offer(turn, mission),
@@ -185,9 +185,3 @@ def name_sought(step: StepRecord) -> Bilingual:
     """Name a step's object: a kind of thing in both languages, else as it was written."""
     words = step.object or ""
     return name_object(words) if words in KINDS else say_same(words)
-
-
-def _can_think(rules: Rules, mission: Planning) -> bool:
-    """Tell whether the brain that planned a goal may read an answer: the offline one has no way."""
-    brain = mission.brain
-    return brain is not None and brain.name != OFFLINE and mission.decides < rules.decides

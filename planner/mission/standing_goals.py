@@ -16,7 +16,7 @@ from planner.language.catalogue import join, message, say
 from planner.mission.effects import AskBrain
 from planner.mission.errors import QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
-from planner.mission.open_questions import WAITS, has_room
+from planner.mission.open_questions import WAITS, count_open, has_room
 from planner.mission.outcomes import moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.state import ORDER_SOURCE, GoalKey, Mission, MissionState
@@ -169,7 +169,7 @@ class StandingGoals:
         if (before := self.find(key)) is not None:
             return before
         if not has_room(self.book):
-            raise QueueFull(sum(not m.has_ended for m in self.book.missions.values()))
+            raise QueueFull(count_open(self.book))
         body = hashlib.sha256(f"{source}\n{text}".encode()).hexdigest()[:32]
         request = GoalKey(key, body, goal_id)
         self._repeats.remember(request)

@@ -22,7 +22,7 @@ from planner.mission.activity import (
 )
 from planner.mission.effects import AskEyes, AskMemory, AskTool, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
-from planner.mission.outcomes import ended_outcome, moves, plain_outcome, thoughts
+from planner.mission.outcomes import ended_outcome, moves, plain_outcome
 from planner.mission.queue import (
     finish,
     next_up,
@@ -254,7 +254,9 @@ def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
         think(turn, mission)
         return
     if mission.decides >= turn.book.rules.decides:
-        said = message(Code.OUT_OF_BUDGET, budget=thoughts(turn.book.rules.decides))
+        said = message(
+            Code.OUT_OF_BUDGET, budget=say("account.thoughts", count=turn.book.rules.decides)
+        )
         fail_step(turn, Fail(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)

@@ -23,22 +23,14 @@ from planner.plan import Bilingual, Code, Outcome, StepState, parent_of, parents
 from planner.plan.plan_walk import catch
 from planner.skills import Fail, SkillStateBase
 
-MENDABLE = frozenset(
-    {
-        Code.NO_ROUTE,
-        Code.BLOCKED,
-        Code.GOAL_OCCUPIED,
-        Code.NO_ROOM,
-        Code.NOT_REACHED,
-        Code.UNKNOWN_PLACE,
-    }
-    | {Code.NOT_FOUND, Code.LOST_PERSON}
-)
+SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED, Code.GOAL_OCCUPIED})
+MENDABLE = SHUT | {
+    *(Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE, Code.NOT_FOUND, Code.LOST_PERSON)
+}
 """Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
 CAUGHT = MENDABLE | {Code.UNSURE, Code.UNMET, Code.BLIND}
 """What a plan's own ``on_failure`` is for. A fault, a spent budget or a missing part ends the goal
 whatever the plan says."""
-SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED, Code.GOAL_OCCUPIED})
 IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON, Code.UNSURE, Code.UNMET})
 """Nothing was wrong but that it was not there: the way back that the person ordered holds."""
 AGAIN_S = 1.0
@@ -63,7 +55,10 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
         return
     said = cannot.said or failure(turn.book.facts, mission, mission.current_step, cannot.code, "")
     before = mission.failure if mission.returning else None
-    why = Outcome(code=cannot.code, message=said) if before is None else _append(before, said)
+    why = Outcome(code=cannot.code, message=said)
+    if before is not None:  # it is told behind the failure on the way there
+        both = say("step_failure.both", told=before.message, said=said)
+        why = Outcome(code=before.code, message=both)
     mission = note_step(
         turn, mission, state=StepState.FAILED, reason=cannot.reason, said=said, **cannot.figures
     )
@@ -143,13 +138,6 @@ def _is_sure(mission: Mission, index: int) -> bool:
         return True
     branch = {row[i].role for i in now if parent_of(row, i) == parent}
     return row[index].role in branch
-
-
-def _append(before: Outcome, said: Bilingual) -> Outcome:
-    """Return a failure with the one on the way back told after it."""
-    told = before.message
-    both = say("step_failure.both", told=told, said=said)
-    return Outcome(code=before.code, message=both)
 
 
 def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:

@@ -28,6 +28,7 @@ from planner.mission.effects import (
     DropBrain,
     KeepPicture,
     SavePicture,
+    TaskEffect,
 )
 from planner.mission.events import Planned, Recalled, Told, ToolAnswered
 from planner.mission.perception_requests import EyeDoor
@@ -105,17 +106,7 @@ class MissionTasks:
         self._inquiries: dict[int, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def help(
-        self,
-        ask: AskBrain
-        | AskRoute
-        | AskEyes
-        | AskMemory
-        | AskTool
-        | KeepPicture
-        | SavePicture
-        | DropBrain,
-    ) -> None:
+    def help(self, ask: TaskEffect) -> None:
         """Start to think, to search or to ask about pictures; keep one; stop thinking."""
         match ask:
             case AskBrain():

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from planner.api.shared_mission import page_of
+from planner.api.history import page_of
 from planner.mission.effects import Journal
 from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import MissionJournal

@@ -26,7 +26,7 @@ from planner.plan import Code, Edit, GoalState, places_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from planner.plan import Change, ChangedOrder, PlanRecord, StepRecord, Vocabulary
+    from planner.plan import Change, PlanRecord, StepRecord, Vocabulary
 
 
 class EarlierOrder(Protocol):
@@ -39,7 +39,7 @@ class EarlierOrder(Protocol):
     @property
     def order_text(self) -> str: ...
     @property
-    def changed(self) -> ChangedOrder | None: ...
+    def has_changed_steps(self) -> bool: ...
     @property
     def state(self) -> GoalState: ...
     @property
@@ -156,7 +156,7 @@ def people_of(order: EarlierOrder) -> tuple[str, ...]:
 
 def _named_places(order: EarlierOrder, names: Vocabulary) -> set[str]:
     """Return the places that a person named in an order, or in what it changes."""
-    if order.changed is not None and order.changed.steps:
+    if order.has_changed_steps:
         return {place for step in order.steps for place in places_of(step)}
     return {place.id for place in find_places(order.order_text, names)}
 
