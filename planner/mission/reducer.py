@@ -13,7 +13,7 @@ from planner.bridge_client.ownership import STAND, MotionRequest
 from planner.language.catalogue import list_names, message
 from planner.mission import events
 from planner.mission.activity import AskingImage, Driving
-from planner.mission.effects import AskBrain, Effect
+from planner.mission.effects import Effect
 from planner.mission.events import Command, Event, Fact
 from planner.mission.goal_lifecycle import (
     confirm,
@@ -48,8 +48,6 @@ from planner.plan import (
 )
 from planner.site.site_view import SiteView
 from planner.skills.object_matching import names_any
-
-__all__ = ["AskBrain", "advance", "motion_request"]
 
 
 def advance(

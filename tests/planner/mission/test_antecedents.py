@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import pytest
 
@@ -22,9 +21,6 @@ from tests.planner.mission.leaning import (
     order_done,
     order_under_way,
 )
-
-if TYPE_CHECKING:
-    pass
 
 THINGS, PLACES = ("cup", "the book", "my red ball"), (("kitchen", "厨房"), ("study", "书房"))
 EN = (
