@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from planner.language.commands import Intent
     from planner.language.sentence import SaidSentence
     from planner.mission.state import Mission, MissionState
-    from wire import Pose2
 
 
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
@@ -304,11 +303,6 @@ OLD_POSE_S = 1.0
 """A status older than this says nothing of where the robot is."""
 Point = tuple[float, float, float]
 """x [m], y [m], yaw [rad] in ``map``."""
-
-
-def as_point(pose: Pose2 | None) -> Point | None:
-    """Return a pose as a goal's record has it."""
-    return (pose.x_m, pose.y_m, pose.yaw_rad) if pose is not None else None
 
 
 def departure_of(book: MissionState, now_s: float) -> Point | None:

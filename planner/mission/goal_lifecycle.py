@@ -9,7 +9,7 @@ from planner.language.sentence import parse
 from planner.mission.activity import Thinking
 from planner.mission.conversation import question_of
 from planner.mission.events import Planned, Restarted, Submitted
-from planner.mission.follow_up import as_point, departure_of, newest_order, way_back_of
+from planner.mission.follow_up import departure_of, newest_order, way_back_of
 from planner.mission.open_questions import (
     TAKES_YES,
     AwaitedWord,
@@ -100,7 +100,8 @@ def submit(turn: Transaction, event: Submitted) -> None:
         language=event.language, state=FIRST, confirm=event.confirm, replace=event.replace,
         first=event.first, doubtful_stop=event.doubtful_stop, interrupted=event.interrupts,
         given_under_hold=hold_now(turn, event.source), source=event.source, by=event.by,
-        map_id=turn.book.facts.map_id, accepted_at=as_point(here),
+        map_id=turn.book.facts.map_id,
+        accepted_at=None if here is None else (here.x_m, here.y_m, here.yaw_rad),
         departed_at=departure_of(turn.book, turn.now_s),
         created_unix_s=now_unix_s, updated_unix_s=now_unix_s,
     )  # fmt: skip
