@@ -5,8 +5,11 @@ Whoever may see the goals may see them here; the model's own words stay with /v1
 
 from __future__ import annotations
 
+import html
+import json
 import re
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
 from starlette.responses import HTMLResponse
@@ -14,14 +17,14 @@ from starlette.responses import HTMLResponse
 from planner.api.goals import Cursor, find_goal
 from planner.api.interfaces import Services
 from planner.budget import Usage
-from planner.mission.goal_history import GoalStory, HistoryPage, HistoryQuery
-from planner.mission.recorded_track import RecordedTrack
-from planner.mission.shared_mission import page_of
+from planner.mission.goal_history import GoalStory, HistoryPage, HistoryQuery, RecordedTrack
 from planner.plan import Frozen, Goal, GoalState, Language
 
 Limit = Annotated[int, Query(ge=1, le=200)]
 UnixTime = Annotated[float | None, Query(ge=0.0, le=1e11)]
 Words = Annotated[str | None, Query(max_length=200)]
+TEMPLATE = Path(__file__).with_name("shared_mission.html")
+MOST_OF_TITLE = 80
 _NO_FILE_NAME = re.compile(r"[^A-Za-z0-9_.-]")
 
 
@@ -98,3 +101,16 @@ async def _track(services: Services, goal_id: str) -> RecordedTrack:
     mission, story = await services.history.story(goal_id)
     began = story.changes[0].at_unix_s if story.changes else mission.created_unix_s
     return await services.history.tracks.read(began, mission.updated_unix_s)
+
+
+def page_of(told: dict[str, Any], track: dict[str, Any], language: Language) -> str:
+    """Return one mission as a page to share: one HTML file that asks no network and runs no words.
+
+    All it knows stands in it as JSON, as /v1/history/ID tells it; what people and models wrote is
+    shown as text, never as markup. Its labels are in a language.
+    """
+    content = json.dumps({**told, "track": track, "labels": language.value}, ensure_ascii=False)
+    inert = content.replace("<", "\\u003c")  # no sentence can end the script that holds it
+    title = html.escape(told["goal"]["text"][:MOST_OF_TITLE])
+    page = TEMPLATE.read_text("utf-8").replace("__TITLE__", title)
+    return page.replace("__CONTENT__", inert)

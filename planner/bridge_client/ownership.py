@@ -44,6 +44,21 @@ class Identity:
 
 
 @dataclass(frozen=True, slots=True)
+class MotionRequest:
+    """Hold the motion to ask of the bridge now. Empty: stand, and ask for nothing."""
+
+    mission: str | None = None
+    """Ask for a grant for this goal."""
+    leg: int | None = None
+    """Stream this leg's path; None: stand."""
+    grant: str | None = None
+    """The name under which the bridge meters it."""
+
+
+STAND = MotionRequest()
+
+
+@dataclass(frozen=True, slots=True)
 class Course:
     """Hold the mission's wish now. ``points`` None: stand, and end the leg being followed."""
 

@@ -33,101 +33,39 @@ with ``rounds=False`` and calls ``missions.loop.hear()`` and ``tick()`` itself. 
 ``motion_request`` are pure.
 """
 
-from planner.mission.api_view import goal_of
 from planner.mission.clocks import Clocks
-from planner.mission.effects import (
-    AskBrain,
-    AskRoute,
-    DropBrain,
-    Effect,
-    GoalChange,
-    Journal,
-    MotionRequest,
-    SayAloud,
-)
-from planner.mission.engine import Engine, Leg, Output
+from planner.mission.effects import AskBrain
+from planner.mission.engine import Engine, Leg
 from planner.mission.errors import (
     BadState,
     IdempotencyConflict,
     JournalDown,
-    MissionError,
     NothingToResume,
     QueueFull,
     UnknownGoal,
 )
-from planner.mission.event_hub import Subscription
-from planner.mission.events import (
-    Cancel,
-    Confirm,
-    Event,
-    Journalled,
-    Move,
-    Pause,
-    Planned,
-    Reply,
-    Restarted,
-    Resume,
-    Routed,
-    Seen,
-    Stopped,
-    Submitted,
-    Tick,
-)
+from planner.mission.events import Planned
 from planner.mission.journal import MissionJournal
-from planner.mission.journal_sync import Disk, JournalSync
-from planner.mission.obstruction_text import tell_doubt
-from planner.mission.reducer import advance, motion_request
+from planner.mission.journal_sync import JournalSync
 from planner.mission.service import Missions
-from planner.mission.state import Mission, MissionState, Rules
-from planner.mission.tasks import RouteService, Think
+from planner.mission.spoken_status import tell_doubt
+from planner.mission.state import Rules
 
 __all__ = [
     "AskBrain",
-    "AskRoute",
     "BadState",
-    "Cancel",
     "Clocks",
-    "Confirm",
-    "Disk",
-    "DropBrain",
-    "Effect",
     "Engine",
-    "Event",
-    "GoalChange",
     "IdempotencyConflict",
-    "Journal",
     "JournalDown",
     "JournalSync",
-    "Journalled",
     "Leg",
-    "Mission",
-    "MissionError",
     "MissionJournal",
-    "MissionState",
     "Missions",
-    "MotionRequest",
-    "Move",
     "NothingToResume",
-    "Output",
-    "Pause",
     "Planned",
     "QueueFull",
-    "Reply",
-    "Restarted",
-    "Resume",
-    "RouteService",
-    "Routed",
     "Rules",
-    "SayAloud",
-    "Seen",
-    "Stopped",
-    "Submitted",
-    "Subscription",
-    "Think",
-    "Tick",
     "UnknownGoal",
-    "advance",
-    "goal_of",
-    "motion_request",
     "tell_doubt",
 ]

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.formatting import angle, definite, metres
 from planner.language.object_names import tell_words
-from planner.mission.plan_walk import is_left_open
 from planner.plan import Bilingual, Code, StepState, say_same
+from planner.plan.plan_walk import is_left_open
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -80,7 +80,7 @@ def place_name(facts: SiteView, mission: Mission, step: StepRecord | None) -> Bi
     if step is not None and step.kind == "explore":
         return say("account.frontier")
     wanted = facts.home if step is not None and step.kind == "return_home" else None
-    return _name(facts, wanted or (_place(mission, step) if step is not None else ""))
+    return name_place(facts, wanted or (_place(mission, step) if step is not None else ""))
 
 
 def name_point(step: StepRecord) -> Bilingual:
@@ -97,7 +97,8 @@ def _place(mission: Progress, step: StepRecord) -> str:
     return step.place or ""
 
 
-def _name(facts: SiteView, place: str) -> Bilingual:
+def name_place(facts: SiteView, place: str) -> Bilingual:
+    """Name a place for a person; one that is not known by its id."""
     target = facts.targets.get(place)
     return target.name if target is not None else say_same(place or "?")
 
@@ -169,7 +170,7 @@ def _sentences(facts: SiteView, step: StepRecord) -> Iterator[Bilingual]:
         if step.state is not StepState.SUCCEEDED:  # its own report has them all
             yield from (stop.said for stop in step.stops)
     elif step.visited and step.places:
-        names = [_name(facts, place) for place in step.places[: step.visited]]
+        names = [name_place(facts, place) for place in step.places[: step.visited]]
         yield say("account.visited", names=list_names(names))
     if step.answer is not None:
         yield _tell_answer(step)
@@ -194,8 +195,10 @@ def _tell_answer(step: StepRecord) -> Bilingual:
 def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
     """Yield what a step did that has no words of its own."""
     match step.kind:
-        case "turn" | "move":
-            yield _amount(step)
+        case "turn":  # as it was asked for: the record has how near it came
+            yield say("account.turned", put=angle(step.angle_rad or 0.0))
+        case "move":
+            yield say("account.moved", put=metres(step.distance_m or 0.0))
         case "wait":
             seconds = f"{step.seconds or 0.0:g}"
             yield say("account.waited", seconds=seconds)
@@ -207,13 +210,6 @@ def _tell_deed(step: StepRecord) -> Iterator[Bilingual]:
             whole = step.state is StepState.SUCCEEDED and step.round == step.times
             code = "account.all_rounds" if whole else "account.rounds"
             yield say(code, count=step.round, times=step.times)
-
-
-def _amount(step: StepRecord) -> Bilingual:
-    """Tell a turn or a move as it was asked for: the record has how near it came."""
-    if step.kind == "turn":
-        return say("account.turned", put=angle(step.angle_rad or 0.0))
-    return say("account.moved", put=metres(step.distance_m or 0.0))
 
 
 def _undone(facts: SiteView, mission: Mission, code: Code) -> Bilingual | None:
@@ -253,17 +249,20 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
             return say("account.recalling")
         case "use_tool":
             return say("account.asking_tool", tool=step.tool)
-        case "wait" | "wait_for":
-            return _name_wait(step)
+        case "wait":
+            return say("account.waiting", seconds=f"{step.seconds or 0.0:g}")
+        case "wait_for":
+            what = step.object or step.word or step.time or ""
+            return say("account.waiting_for", what=what)
         case "turn" | "move":
             turns = step.kind == "turn"
             put = angle(step.angle_rad or 0.0) if turns else metres(step.distance_m or 0.0)
             return say("account.turning" if turns else "account.driving", put=put)
         case "patrol":
-            names = [_name(facts, place) for place in step.places[step.visited or 0 :]]
+            names = [name_place(facts, place) for place in step.places[step.visited or 0 :]]
             return say("account.visiting", names=list_names(names))
         case "stand_at":
-            name = _name(facts, step.place) if step.place else say_same(text)
+            name = name_place(facts, step.place) if step.place else say_same(text)
             return say("account.standing", side=say(f"stand.side_{step.side}", name=name))
         case "go_to_point":
             return say("account.going_to_point")
@@ -272,13 +271,6 @@ def _name_step(facts: SiteView, mission: Mission, step: StepRecord) -> Bilingual
         case _:
             name = place_name(facts, mission, step)
             return say("account.going_to", name=definite(name))
-
-
-def _name_wait(step: StepRecord) -> Bilingual:
-    """Name a wait for some seconds, or for what it waits for."""
-    if step.kind == "wait":
-        return say("account.waiting", seconds=f"{step.seconds or 0.0:g}")
-    return say("account.waiting_for", what=step.object or step.word or step.time or "")
 
 
 def _join_sentences(told: Sequence[Bilingual]) -> Bilingual:

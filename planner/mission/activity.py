@@ -95,44 +95,36 @@ class RoutePurpose(StrEnum):
     """To say whether to look from elsewhere; without an answer the leg goes on."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Driving(_StepActivity):
-    """Drive one leg to a goal: its route is searched, streamed, lost and searched again."""
+@dataclass(frozen=True, kw_only=True)
+class LegRoutes:
+    """Hold the way of a leg: the one that is streamed, the one that is searched, and the tries."""
 
-    act: DriveLeg
-    """What the skill asked for last: the goal, the way, the budget and what is remembered."""
-    since_s: float
-    """When this leg began: the step's time is counted from here."""
-    asked_s: float
-    """When the skill was asked last."""
-    moving_s: float = 0.0
-    """Time for which the leg was followed and nothing held it."""
-    left_m: float | None = None
-    """Along the path, as of the newest status."""
-    limited: dict[str, int] = field(default_factory=dict)
-    """Statuses during which the bridge's limit of that name was the nearest one."""
+    leg: int | None = None
+    """The leg that is streamed; None: stand."""
     ticket: int | None = None
     """The route that is being searched."""
     purpose: RoutePurpose = RoutePurpose.LEG
     """Of the newest search."""
-    explore_asked_s: float = float("-inf")
-    """When that was asked last."""
-    doubts: LegDoubts = LegDoubts()
-    leg: int | None = None
-    """The leg that is streamed; None: stand."""
     route_when_standing: bool = False
+    retry_s: float | None = None
+    """When the next try is due after a failed route."""
     routes: int = 0
     """Routes asked for in this step because one was lost or refused, not because of obstacles."""
     detours_failed: int = 0
     detours: int = 0
-    manoeuvre: Manoeuvre | None = None
-    """The leg's own way waits until this is done."""
+    explore_asked_s: float = float("-inf")
+    """When it was asked last whether to look from elsewhere."""
+    doubts: LegDoubts = LegDoubts()
+
+
+@dataclass(frozen=True, kw_only=True)
+class LegHolds:
+    """Hold since when something keeps a leg from going on."""
+
     rung_since_s: float | None = None
     """Since when the rung of the recovery ladder that is next has been waited for."""
     occupied_since_s: float | None = None
     """Since when something stands where the leg is to end."""
-    retry_s: float | None = None
-    """When the next try is due after a failed route."""
     row_since_s: float | None = None
     """Since when a row of the bridge, or what stands in the way, holds the robot."""
     blocked_since_s: float | None = None
@@ -140,6 +132,35 @@ class Driving(_StepActivity):
     idle_since_s: float | None = None
     jumped: bool = False
     """The pose jumped, and no new leg has begun since."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LegPace:
+    """Hold how a leg is driven, as the statuses tell."""
+
+    moving_s: float = 0.0
+    """Time for which the leg was followed and nothing held it."""
+    left_m: float | None = None
+    """Along the path, as of the newest status."""
+    limited: dict[str, int] = field(default_factory=dict)
+    """Statuses during which the bridge's limit of that name was the nearest one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Driving(_StepActivity, LegRoutes, LegHolds, LegPace):
+    """Drive one leg to a goal: its route is searched, streamed, lost and searched again.
+
+    Each idea is a record, which is all that many a function takes.
+    """
+
+    act: DriveLeg
+    """What the skill asked for last: the goal, the way, the budget and what is remembered."""
+    since_s: float
+    """When this leg began: the step's time is counted from here."""
+    asked_s: float
+    """When the skill was asked last."""
+    manoeuvre: Manoeuvre | None = None
+    """The leg's own way waits until this is done."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,34 +194,33 @@ class Observing(_StepActivity):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AskingImage(_StepActivity):
+class AwaitingAnswer(_StepActivity):
+    """Stand until somebody has answered."""
+
+    ticket: int
+    """The question whose answer is waited for."""
+    until_s: float
+    """When the wait ends without one."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AskingImage(AwaitingAnswer):
     """Stand until a question about the picture is answered."""
 
     act: AskImage
     since_s: float
-    ticket: int
-    """The question whose answer is waited for."""
-    until_s: float
-    """When the wait ends without one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LookingUp(_StepActivity):
+class LookingUp(AwaitingAnswer):
     """Stand until memory has answered."""
 
-    ticket: int
-    """The question whose answer is waited for."""
-    until_s: float
-    """When the wait ends without one."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CallingTool(_StepActivity):
+class CallingTool(AwaitingAnswer):
     """Stand until a tool has answered; it is asked once the step's beginning is on disk."""
 
-    ticket: int
     agreed: bool
-    until_s: float
     is_sent: bool = False
 
 

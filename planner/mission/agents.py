@@ -12,17 +12,16 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
 from planner.language.commands import BatteryCommand, Doing, OutcomeCommand, WhereCommand
-from planner.mission.allowed_commands import refusal
 from planner.mission.errors import NotOwnGoal, PersonMissing, UnknownGoal
-from planner.mission.open_questions import asks, confirms
+from planner.mission.open_questions import AwaitedWord, wait_of
 from planner.mission.state import AGENT_SOURCE
+from planner.mission.transitions import refusal
 from planner.plan import STEPLESS, Clarify, Code, Option, PlanRole, Refuse, StepPlan
 
 if TYPE_CHECKING:
-    from planner.language.commands import Intent
     from planner.mission.errors import MissionError
     from planner.mission.events import Command, Planned
-    from planner.mission.state import Mission, MissionState
+    from planner.mission.state import MissionState
     from planner.plan import Plan
 
 MOST_OPEN = 8
@@ -37,23 +36,10 @@ def is_agents(source: str) -> bool:
     return source.startswith(AGENT_SOURCE)
 
 
-def may_say(intent: Intent) -> bool:
-    """Return whether an agent may say this to the planner itself."""
-    return isinstance(intent, MAY_ASK)
-
-
 def has_room(book: MissionState) -> bool:
     """Return whether one more goal of an agent can be taken."""
     open_ = (m for m in book.missions.values() if not m.has_ended and is_agents(m.source))
     return sum(1 for _ in open_) < MOST_OPEN
-
-
-def needs_person(mission: Mission) -> bool:
-    """Return whether a goal waits for a person: a plan for its yes, or a step that asks people.
-
-    What a brain asks about the order itself is for the giver of the order to answer.
-    """
-    return confirms(mission) or asks(mission)
 
 
 def refuse_command(book: MissionState, command: Command, source: str) -> MissionError | None:
@@ -67,12 +53,17 @@ def refuse_command(book: MissionState, command: Command, source: str) -> Mission
 def refuse_answer(
     book: MissionState, command: Command, source: str, *, declines: bool
 ) -> MissionError | None:
-    """Return why an agent may not answer a goal so; a plain no to its own is always its to say."""
+    """Return why an agent may not answer a goal so; a plain no to its own is always its to say.
+
+    What a brain asks about the order itself is for the giver of the order to answer; a plan's yes,
+    and the answer to a step that asks people, are a person's.
+    """
     mission = book.missions.get(command.id)
     if mission is None:
         return UnknownGoal(command.id, tuple(book.missions))
     refused = refuse_command(book, command, source)
-    return refused or (PersonMissing() if needs_person(mission) and not declines else None)
+    needs_person = wait_of(mission) in (AwaitedWord.STEP, AwaitedWord.PLAN)
+    return refused or (PersonMissing() if needs_person and not declines else None)
 
 
 def hold_to_agent(planned: Planned) -> Planned:

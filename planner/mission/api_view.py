@@ -56,7 +56,7 @@ def tell_book(book: MissionState, goals: Iterable[Goal]) -> dict[str, Any]:
 
 def progress_of(book: MissionState) -> Progress | None:
     """Return the rest of the running step: metres, radians or seconds; None of no motion."""
-    mission, activity = book.missions.get(book.running or ""), book.activity
+    mission, activity = book.running_goal, book.activity
     if mission is None or activity is None or mission.current_step is None:
         return None
     step, left = mission.current_step, dict[str, float]()

@@ -9,8 +9,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from planner.mission.allowed_commands import ALLOWED, api_name
-from planner.mission.transitions import FIRST, TRANSITIONS
+from planner.mission.transitions import ALLOWED, FIRST, TRANSITIONS, api_name
 from planner.plan import ENDED, GoalState
 from pons_assets import ROOT, checkout
 

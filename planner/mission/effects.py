@@ -1,7 +1,7 @@
 """List what the reducer may ask of the world. Motion is not among them: see ``motion_request``.
 
 What is streamed to the bridge is a level, not an event, so that no lost effect can keep a robot
-moving: after every step the caller reads ``wish(book)`` anew.
+moving: after every step the caller reads ``motion_request(book)`` anew.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from planner.brain.interface import Exchange, Observation
 from planner.brain.situation import Situation
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
-from planner.plan import Bilingual, ChangedOrder, Language, LastOrder, Span, StepPlan
-from planner.skills.actions import Way
+from planner.plan import ChangedOrder, Language, LastOrder, Span, StepPlan
+from planner.skills.actions import AskImage, Way
 from wire import Pose2
 
 
@@ -105,18 +105,8 @@ class AskEyes:
     id: str
     ticket: int
     language: Language
-    words: str = ""
-    point: bool = False
-    """Where these words are; else what is seen."""
-    x: int | None = None
-    """Else what a point of the picture shows, each 0 to 1000; the words don't matter then."""
-    y: int | None = None
-    views: tuple[Bilingual, ...] = ()
-    """Names of the directions whose pictures were to be kept, in their order."""
-    now: Bilingual | None = None
-    """The direction of the newest picture."""
-    seek: bool = False
-    """Whether such a thing is there and how many, in place of words."""
+    asked: AskImage
+    """What the skill wants to know."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,32 +185,8 @@ class GoalChange:
     id: str
 
 
-Effect = (
-    AskBrain
-    | DropBrain
-    | ClearHold
-    | AskRoute
-    | AskEyes
-    | AskMemory
-    | AskTool
-    | KeepPicture
-    | SavePicture
-    | Journal
-    | SayAloud
-    | GoalChange
+TaskEffect = (
+    AskBrain | DropBrain | AskRoute | AskEyes | AskMemory | AskTool | KeepPicture | SavePicture
 )
-
-
-@dataclass(frozen=True, slots=True)
-class MotionRequest:
-    """Hold the motion to ask of the bridge now. Empty: stand, and ask for nothing."""
-
-    mission: str | None = None
-    """Ask for a grant for this goal."""
-    leg: int | None = None
-    """Stream this leg's path; None: stand."""
-    grant: str | None = None
-    """The name under which the bridge meters it."""
-
-
-STAND = MotionRequest()
+"""What is done beside the loop."""
+Effect = TaskEffect | ClearHold | Journal | SayAloud | GoalChange

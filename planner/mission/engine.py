@@ -10,10 +10,11 @@ from dataclasses import dataclass, replace
 from math import atan2, copysign, hypot
 
 from planner.bridge_client import Course, Identity, OwnerState, on_course, on_status
+from planner.bridge_client.nav2_pilot import Nav2Pilot, pilot_of
+from planner.bridge_client.ownership import MotionRequest
 from planner.mission.activity import Driving, RouteDoubt
-from planner.mission.effects import AskRoute, Effect, Journal, MotionRequest
-from planner.mission.events import Event, Journalled, Routed, Seen
-from planner.mission.nav2_pilot import Nav2Pilot, pilot_of
+from planner.mission.effects import AskRoute, Effect
+from planner.mission.events import Event, Routed, Seen
 from planner.mission.reducer import advance, motion_request
 from planner.mission.route_doubts import meeting_share, standing_doubt
 from planner.mission.state import MissionState
@@ -87,11 +88,17 @@ class Engine:
     @property
     def leg(self) -> Leg | None:
         """Return the leg that is wanted now, for people to see; None while standing is wanted."""
-        following, wanted = self._following, motion_request(self.book)
-        if following is None or (following.mission, following.leg) != (wanted.mission, wanted.leg):
+        following = self._path_of(motion_request(self.book))
+        if following is None:
             return None
         doubt = standing_doubt(self.book)
         return Leg(following.mission, following.leg, following.path.points, doubt)
+
+    def _path_of(self, wanted: MotionRequest) -> Following | None:
+        """Return the path that is followed, where it is that of the leg that is wanted."""
+        now = self._following
+        ours = now is not None and (now.mission, now.leg) == (wanted.mission, wanted.leg)
+        return now if ours else None
 
     def way_ahead(self, reach_m: float) -> WayAhead | None:
         """Return the path from the robot on; None while it is to stand."""
@@ -143,7 +150,7 @@ class Engine:
 
     def _speed_share(self) -> float:
         """Return the share of the planned speeds that is driven: less near another robot."""
-        mission = self.book.missions.get(self.book.running or "")
+        mission = self.book.running_goal
         share = mission.speed_share if mission is not None else 1.0
         return min(share, meeting_share(self.book))
 
@@ -170,10 +177,6 @@ class Engine:
         """
         effects = self._take_route(ask, points, failure, now_s, floor, faces)
         return Output(self._speak(now_s), effects)
-
-    def take_journalled(self, journal: Journal, now_s: float) -> Output:
-        """Take the word that an entry is on disk."""
-        return self.event(Journalled(journal.entry), now_s)
 
     def _advance(self, event: Event, now_s: float) -> tuple[Effect, ...]:
         """Reduce one event; a spin that is asked for needs no router and is answered here."""
@@ -252,11 +255,8 @@ class Engine:
 
     def _cut(self, status: Status) -> Horizon | None:
         """Cut the horizon of the leg that is wanted, on the pose of this status."""
-        following, wanted = self._following, motion_request(self.book)
-        pose = status.base_in_map
+        following, pose = self._path_of(motion_request(self.book)), status.base_in_map
         if following is None or pose is None:
-            return None
-        if (following.mission, following.leg) != (wanted.mission, wanted.leg):
             return None
         horizon = cut(self._slow(following), pose, following.progress_m)
         following.progress_m = horizon.progress_m
@@ -274,11 +274,7 @@ class Engine:
     def _course(self, horizon: Horizon | None) -> Course:
         """Return the course for the bridge now; ``horizon`` was cut on the status answered."""
         self._wish = wanted = motion_request(self.book)
-        following = self._following
-        ours = following is not None and (following.mission, following.leg) == (
-            wanted.mission,
-            wanted.leg,
-        )
+        ours = self._path_of(wanted) is not None
         if wanted.leg is None or not ours or horizon is None or not horizon.points:
             return Course(wanted.grant)
         return Course(wanted.grant, wanted.leg, horizon.points, horizon.final)

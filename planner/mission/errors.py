@@ -47,9 +47,6 @@ class NothingToResume(MissionError):
 
     code = "nothing_to_resume"
 
-    def __init__(self) -> None:
-        super().__init__()
-
 
 class QueueFull(MissionError):
     """As many goals wait as may wait."""
@@ -91,9 +88,6 @@ class PersonMissing(MissionError):
     """An agent asks for what is a person's alone."""
 
     code = "person_needed"
-
-    def __init__(self) -> None:
-        super().__init__()
 
 
 class JournalDown(MissionError):

@@ -291,7 +291,7 @@ class Tick:
 
 
 Command = Cancel | Pause | Resume | Confirm | Reply | Move | ChangeSpeed
-Event = (
+Fact = (
     Submitted
     | Planned
     | Routed
@@ -305,15 +305,9 @@ Event = (
     | Recalled
     | ToolAnswered
     | Journalled
-    | Cancel
-    | Pause
-    | Resume
-    | Confirm
-    | Reply
-    | Move
-    | ChangeSpeed
     | Stopped
     | Restarted
     | Known
     | Tick
 )
+Event = Command | Fact

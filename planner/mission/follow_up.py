@@ -3,16 +3,18 @@
 Pure; worked out once for a sentence, by its reception. What it changes is read by
 ``planner.language.changes``, put into the newest order's steps by ``planner.plan.apply``, and
 planned by the built-in brain alone: a model reads what was said. Law: nothing is leant on that is
-older than ``LEANS_S``, and where it is in doubt what is meant, nothing is changed.
+older than ``LEANS_S``, and where it is in doubt what is meant, nothing is changed. "Come back"
+leads to where the order before was given, where that is beyond doubt.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
-from math import pi
+from math import hypot, pi
 from typing import TYPE_CHECKING
 
+from planner.language.changes.antecedents import complete_person, fits, name_antecedents, thing_of
 from planner.language.changes.reader import read_changes
 from planner.language.commands import HereCommand, Replace, intent_of
 from planner.language.folding import has_chinese
@@ -24,12 +26,9 @@ from planner.language.person_names import is_given_name, people_named
 from planner.language.reading import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
-from planner.mission.answered_order import complete_person
-from planner.mission.antecedents import fits, name_antecedents, thing_of
-from planner.mission.departure import LEANS_S
 from planner.mission.open_questions import find_choice, find_offered_plan
-from planner.mission.outcomes import spot_at
-from planner.mission.state import GivenOrder, goal_to_end
+from planner.mission.outcomes import moves, spot_at
+from planner.mission.state import ORDER_SOURCE, GivenOrder, goal_to_end
 from planner.plan import (
     Change,
     ChangedOrder,
@@ -47,6 +46,7 @@ if TYPE_CHECKING:
     from planner.language.commands import Intent
     from planner.language.sentence import SaidSentence
     from planner.mission.state import Mission, MissionState
+
 
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _ROUNDS = frozenset({Edit.LEAVE_OUT, Edit.FIRST})
@@ -75,7 +75,7 @@ def lean_of(book: MissionState, said: SaidSentence, now_unix_s: float) -> Change
         lean = _lean(book, change, orders, text)
         if lean is not None:
             return lean
-    words = name_antecedents(text, orders, book.facts, names) if intent is None else None
+    words = name_antecedents(text, orders, names) if intent is None else None
     return ChangeReading(ChangedOrder(words=words)) if words is not None else None
 
 
@@ -95,7 +95,7 @@ def _take_back(
         there = Change(Edit.INSTEAD, each.place, each.inner) if each.act is Edit.WHERE else each
         lean = _lean(book, there, orders, intent.rest) if there.act is Edit.INSTEAD else None
         changed = changed or (lean.changed if lean is not None else None)
-    named = name_antecedents(intent.rest, orders, book.facts, names) or intent.rest
+    named = name_antecedents(intent.rest, orders, names) or intent.rest
     changed = changed or ChangedOrder(words=named)
     now = intent.now
     return ChangeReading(changed, ends=now, first=now, replaces=not now, corrects=True)
@@ -109,7 +109,7 @@ def _lean(
     if change.rest:
         if not _is_order(change.rest) or not _is_over_there(book, change, last):
             return None
-        rest = name_antecedents(change.rest, orders, book.facts, book.facts.names)
+        rest = name_antecedents(change.rest, orders, book.facts.names)
         changed = ChangedOrder(words=rest or change.rest)
         return ChangeReading(changed, ends=corrects, first=True, corrects=corrects)
     if change.who and last is not None and not _fits(change.who, last):
@@ -118,7 +118,9 @@ def _lean(
     if change.act in _ROUNDS and not _may_change_round(book, change, last):
         return None
     completes = change.act is Edit.WHERE and last is not None and not last.steps
-    words = complete_person(change, last, book.facts) if completes and last is not None else None
+    words = (
+        complete_person(change, last, book.facts.names) if completes and last is not None else None
+    )
     steps = apply(order, change) if words is None else ()
     if not steps and words is None:
         return None
@@ -214,7 +216,7 @@ def person_of(last: Mission) -> str | None:
 
 def _turned_rad(book: MissionState, last: GivenOrder) -> float:
     """Return how far a turn under way has come; 0 where that is unknown."""
-    here = book.status.base_in_map if book.status is not None else None
+    here = book.pose
     if here is None or last.accepted_at is None:
         return 0.0
     return abs((here.yaw_rad - last.accepted_at[2] + pi) % (2.0 * pi) - pi)
@@ -291,3 +293,45 @@ def _was_read(mission: Mission) -> bool:
     plan = mission.plan
     lost = plan is not None and plan.code is Code.NOT_UNDERSTOOD
     return mission.state in _SPOKEN and not lost
+
+
+LEANS_S = 1800.0
+"""Half an hour: after it, "again" means nothing that a person could be held to."""
+AWAY_M, DRIVEN_M = 1.0, 0.1
+"""An order that is over, drove nothing and was given here was done here: one before is meant."""
+OLD_POSE_S = 1.0
+"""A status older than this says nothing of where the robot is."""
+Point = tuple[float, float, float]
+"""x [m], y [m], yaw [rad] in ``map``."""
+
+
+def departure_of(book: MissionState, now_s: float) -> Point | None:
+    """Return where the robot stood when the order was given that led it away from there."""
+    here = book.pose
+    if here is None or not now_s - book.status_s <= OLD_POSE_S:
+        return None
+    now_unix_s = now_s + book.wall_offset_s
+    for order in sorted(book.missions.values(), key=lambda m: -m.order):
+        by_schedule = order.source.startswith(ORDER_SOURCE)
+        if not order.steps or order.state is GoalState.REFUSED or by_schedule:
+            continue
+        begin = order.accepted_at
+        if begin is None or order.map_id != book.facts.map_id:
+            return None
+        if not now_unix_s - order.created_unix_s <= LEANS_S:
+            return None
+        near = hypot(here.x_m - begin[0], here.y_m - begin[1]) <= AWAY_M
+        if not (near and order.has_ended and order.metres <= DRIVEN_M):
+            return begin
+    return None
+
+
+def way_back_of(mission: Mission) -> Point | None:
+    """Return where a goal's ``come_back`` leads: one that moves nowhere before leans on departure.
+
+    Else it is where the goal was accepted.
+    """
+    first = next((step for step in mission.steps if moves(step)), None)
+    if first is not None and first.kind == "come_back" and mission.departed_at is not None:
+        return mission.departed_at
+    return mission.accepted_at

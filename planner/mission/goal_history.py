@@ -2,7 +2,9 @@
 
 The journal writes the rows in its own transactions; ``GoalHistory`` reads them on connections of
 its own, in a thread, so that neither the loop nor the journal's writer waits. One row is a hundred
-bytes where a record is three thousand, so ten thousand are searched in milliseconds.
+bytes where a record is three thousand, so ten thousand are searched in milliseconds. The black box
+is read for a mission by a process, for the planner knows no recordings: one at a time, and only as
+long as a person would wait.
 """
 
 from __future__ import annotations
@@ -13,18 +15,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import sqlalchemy as sa
+from pydantic import ValidationError
 
 from planner.mission.errors import UnknownGoal
 from planner.mission.journal_records import read_mission
-from planner.mission.recorded_track import TrackReader
 from planner.mission.state import GoalKey
 from planner.plan import ENDED, Frozen, GoalState, Language
+from processes.parent_death import child_command
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from planner.mission.state import Mission
+
 
 FILE = "missions.db"
 """The journal of a home."""
@@ -191,30 +195,27 @@ class GoalHistory:
         shown = tuple(_show(row) for row in found[: query.limit])
         return HistoryPage(goals=shown, next=shown[-1].order if len(found) > len(shown) else None)
 
-    def _changed_since(self, cursor: int, limit: int) -> ChangedGoals:
+    def _read(self, asked: sa.TextClause, **values: str | int) -> Sequence[Any]:
+        """Return the rows that are asked for; none where nothing was ever ordered here."""
         if not self._path.exists():
-            return ChangedGoals((), cursor)
+            return ()
         with self._engine.connect() as connection:
-            found = connection.execute(_CHANGED, {"cursor": cursor, "limit": limit}).all()
+            return connection.execute(asked, values).all()
+
+    def _changed_since(self, cursor: int, limit: int) -> ChangedGoals:
+        found = self._read(_CHANGED, cursor=cursor, limit=limit)
         missions = tuple(read_mission(record) for record, _ in found)
         return ChangedGoals(missions, found[-1].seq if found else cursor)
 
     def _find_key(self, key: str) -> GoalKey | None:
-        if not self._path.exists():
-            return None
-        with self._engine.connect() as connection:
-            found = connection.execute(_KEY, {"key": key}).one_or_none()
-        return GoalKey(*found) if found is not None else None
+        found = self._read(_KEY, key=key)
+        return GoalKey(*found[0]) if found else None
 
     def _story(self, goal_id: str) -> tuple[Mission, GoalStory]:
-        if not self._path.exists():
+        found = self._read(_RECORD, goal=goal_id)
+        if not found:
             raise UnknownGoal(goal_id, ())
-        with self._engine.connect() as connection:
-            record = connection.execute(_RECORD, {"goal": goal_id}).scalar()
-            changed = connection.execute(_CHANGES, {"goal": goal_id}).all()
-        if record is None:
-            raise UnknownGoal(goal_id, ())
-        mission = read_mission(record)
+        mission, changed = read_mission(found[0].record), self._read(_CHANGES, goal=goal_id)
         changes: list[StateChange] = []
         for state, at_unix_s in changed:
             if not changes or changes[-1].state != state:
@@ -259,3 +260,72 @@ def _show(row: sa.RowMapping) -> HistoryRow:
         {**fields, "state": GoalState(row["state"]), "language": Language(row["language"]),
          "seconds": lasted_s, "told": json.loads(row["told"])}
     )  # fmt: skip
+
+
+MODULE = "pons.mission_track"
+MARGIN_S = 5.0
+"""So much of the recording before and after a mission is shown with it."""
+LIMIT_S = 20.0
+NICE = 10
+"""Of the session that it leads: it stands behind the planner's own loop."""
+
+
+class TrackSample(Frozen):
+    """Show where the robot was and how fast, at a time since the track's beginning."""
+
+    s: float
+    x_m: float | None
+    """In ``map``; None: the robot did not know."""
+    y_m: float | None
+    yaw_rad: float | None
+    asked_mps: float
+    measured_mps: float
+    mode: str
+    rows: tuple[str, ...]
+
+
+class TrackEvent(Frozen):
+    """Show what the bridge said at a time."""
+
+    s: float
+    code: str
+    detail: str
+
+
+class RecordedTrack(Frozen):
+    """Show a mission as the black box has it; empty where nothing of it is kept, or may be read."""
+
+    samples: tuple[TrackSample, ...] = ()
+    events: tuple[TrackEvent, ...] = ()
+    gaps: tuple[tuple[float, float], ...] = ()
+    """From when to when nothing is kept."""
+    way_m: float = 0.0
+
+
+class TrackReader:
+    """Read tracks out of a home's recordings."""
+
+    def __init__(self, home: Path) -> None:
+        self._home = home
+        self._one = asyncio.Lock()
+
+    async def read(self, since_unix_s: float, until_unix_s: float) -> RecordedTrack:
+        """Return the track between two times; an empty one where it can't be read in time."""
+        words = (str(self._home), repr(since_unix_s - MARGIN_S), repr(until_unix_s + MARGIN_S))
+        async with self._one:
+            process = await asyncio.create_subprocess_exec(
+                *child_command(MODULE, *words, session_nice=NICE),
+                stdin=asyncio.subprocess.DEVNULL,
+                stdout=asyncio.subprocess.PIPE,
+                stderr=asyncio.subprocess.DEVNULL,
+                start_new_session=True,
+            )
+            try:
+                told, _ = await asyncio.wait_for(process.communicate(), LIMIT_S)
+                return RecordedTrack.model_validate_json(told, strict=False)
+            except (TimeoutError, ValidationError):
+                return RecordedTrack()
+            finally:
+                if process.returncode is None:
+                    process.kill()
+                    await process.wait()

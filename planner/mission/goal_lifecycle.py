@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from planner.language.catalogue import join, message, say
+import dataclasses
+
+from planner.language.catalogue import join, say
 from planner.language.sentence import parse
 from planner.mission.activity import Thinking
-from planner.mission.answered_order import complete_order
-from planner.mission.conversation import situation_of
-from planner.mission.departure import departure_of, find_robot, way_back_of
-from planner.mission.effects import AskBrain
+from planner.mission.conversation import question_of
 from planner.mission.events import Planned, Restarted, Submitted
-from planner.mission.follow_up import newest_order
-from planner.mission.observations import exchanges_of
+from planner.mission.follow_up import departure_of, newest_order, way_back_of
 from planner.mission.open_questions import (
+    TAKES_YES,
+    AwaitedWord,
     ask_anew,
     ask_plainly,
     ask_which,
-    asks,
-    chooses,
     close_older,
-    confirms,
-    find_offer,
+    complete_order,
     find_offered_plan,
     keep_answer,
     make_room,
@@ -29,16 +26,23 @@ from planner.mission.open_questions import (
     take_no,
     take_sentence,
     tell_offer,
+    wait_of,
     waiting_since,
 )
-from planner.mission.outcomes import spot_at
+from planner.mission.outcomes import plain_outcome
 from planner.mission.plan_check import UNASKED, ask_for_motion, unwalkable
 from planner.mission.plan_roles import (
+    ask_what_was_meant,
     assume_role,
+    corrects,
     end_current,
+    end_paused,
+    end_stopped,
     find_asking,
     goal_in_hand,
     share_of,
+    stop_after_all,
+    tell_left,
 )
 from planner.mission.queue import (
     acknowledge_hold,
@@ -56,14 +60,6 @@ from planner.mission.queue import (
 from planner.mission.replan import fingerprint, rethought
 from planner.mission.spoken_status import go_on_told
 from planner.mission.state import Mission
-from planner.mission.stop_sentences import (
-    ask_what_was_meant,
-    corrects,
-    end_paused,
-    end_stopped,
-    stop_after_all,
-    tell_left,
-)
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import FIRST, BrainCause, Cause, GoalFact, PersonCause
 from planner.plan import (
@@ -99,14 +95,15 @@ def submit(turn: Transaction, event: Submitted) -> None:
         acknowledge_hold(turn)
     if not (event.stop or event.local):
         make_room(turn, event.text)
-    order, now_unix_s = turn.book.order + 1, turn.now_s + turn.book.wall_offset_s
+    order, now_unix_s, here = turn.book.order + 1, turn.now_unix_s, turn.book.pose
     turn.set(order=order)
     mission = Mission(
         id=event.id, order=order, text=event.text, changed=event.changed, points=event.points,
         language=event.language, state=FIRST, confirm=event.confirm, replace=event.replace,
         first=event.first, doubtful_stop=event.doubtful_stop, interrupted=event.interrupts,
         given_under_hold=hold_now(turn, event.source), source=event.source, by=event.by,
-        map_id=turn.book.facts.map_id, accepted_at=find_robot(turn.book),
+        map_id=turn.book.facts.map_id,
+        accepted_at=None if here is None else (here.x_m, here.y_m, here.yaw_rad),
         departed_at=departure_of(turn.book, turn.now_s),
         created_unix_s=now_unix_s, updated_unix_s=now_unix_s,
     )  # fmt: skip
@@ -129,15 +126,8 @@ def _think_anew(
 
 
 def _think(turn: Transaction, mission: Mission, deed: StepPlan | None = None) -> None:
-    pose = turn.book.status.base_in_map if turn.book.status is not None else None
-    room = spot_at(turn.book.facts, pose).room
-    turn.emit(AskBrain(mission.id, mission.words, mission.language, room,
-                       order=mission.text, exchanges=exchanges_of(mission),
-                       departed=mission.departed_at is not None,
-                       newest=newest_order(turn.book, mission.id, turn.now_s),
-                       situation=situation_of(turn.book, mission, turn.now_s),
-                       changed=None if mission.replies else mission.changed,
-                       deed=deed))  # fmt: skip
+    newest = newest_order(turn.book, mission.id, turn.now_s)
+    turn.emit(dataclasses.replace(question_of(turn, mission), newest=newest, deed=deed))
 
 
 def take_plan(turn: Transaction, event: Planned) -> None:
@@ -155,8 +145,7 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         stop_after_all(turn, mission, event)
         return
     if plan is None:
-        unsaid = message(Code.BAD_PLAN, why=say("plan.no_answer"))
-        outcome = event.failure or Outcome(code=Code.BAD_PLAN, message=unsaid)
+        outcome = event.failure or plain_outcome(Code.BAD_PLAN, why=say("plan.no_answer"))
         mission = turn.put(mission, brain=event.brain)
         cause = BrainCause.FAILS if outcome.code is Code.MODEL_UNAVAILABLE else BrainCause.REFUSES
         finish(turn, mission, cause, outcome, outcome.code.value)
@@ -169,8 +158,8 @@ def take_plan(turn: Transaction, event: Planned) -> None:
         close_older(turn, mission)
     match plan:
         case AnswerPlan():
-            outcome = Outcome(code=Code.ANSWERED, message=message(Code.ANSWERED, text=plan.text))
-            finish(turn, mission, BrainCause.ANSWERS, outcome)
+            answer = plain_outcome(Code.ANSWERED, text=plan.text)
+            finish(turn, mission, BrainCause.ANSWERS, answer)
         case Refuse():
             told = go_on_told(turn.book, plan.reason, turn.now_s)
             outcome = Outcome(code=plan.code, message=told)
@@ -251,16 +240,16 @@ def reply(turn: Transaction, mission: Mission, text: str, by: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
     mission = keep_answer(turn, mission, text, by)
     ask_anew(turn, mission)
-    agreed, order = parse(text).consent, find_offer(mission)
-    if asks(mission):
+    agreed, waits = parse(text).consent, wait_of(mission)
+    if waits is AwaitedWord.STEP:
         take_answer(turn, mission, text)
-    elif agreed is False and (order is not None or confirms(mission) or chooses(mission)):
+    elif agreed is False and waits in (*TAKES_YES, AwaitedWord.CHOICE):
         take_no(turn, mission)
-    elif agreed and chooses(mission):
+    elif agreed and waits is AwaitedWord.CHOICE:
         ask_which(turn, mission)
-    elif confirms(mission) and agreed:
+    elif waits is AwaitedWord.PLAN and agreed:
         ready(turn, mission, PersonCause.AGREES)
-    elif confirms(mission):
+    elif waits is AwaitedWord.PLAN:
         ask_plainly(turn, mission)
     elif (offered := find_offered_plan(mission, text)) is not None:
         mission = note_answer(turn, mission, text)

@@ -3,37 +3,52 @@
 Which rung asks for which stands in ``recovery_steps``. A route that nobody waits for any more is
 forgotten. A leg is done when the bridge says that this very leg was reached, the robot stands, and
 its pose lies inside the room's outline: its step goes on then.
+
+One who explores is told a spot to look from, or that no frontier is left. From then on the leg is
+one by route, so that it recovers where its way is shut, as any other does. On the way it is asked
+now and then whether to look from elsewhere, as the map grows: what the robot was to look at often
+comes into view long before it is there. Nothing stops for that question.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from math import hypot
 
-from planner.mission.activity import Driving, Manoeuvre, RoutePurpose
-from planner.mission.bridge_status import standing
+from planner.bridge_client.bridge_status import standing
+from planner.mission.activity import Driving, LegHolds, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.events import Routed
-from planner.mission.exploration import take_better_viewpoint, take_viewpoint
-from planner.mission.legs import abandon_route, detour_failed, new_leg, take_short
-from planner.mission.occupied_goal import give_up_goal, wait_beside
+from planner.mission.legs import (
+    MAX_ROUTES,
+    RETRY_S,
+    abandon_route,
+    ask_route,
+    detour_failed,
+    give_up_goal,
+    new_leg,
+    take_short,
+    wait_beside,
+)
 from planner.mission.outcomes import spot_at
 from planner.mission.queue import note_step, settle_activity
 from planner.mission.recovery import PASSING_S, Recovery, aside_s, passes_m, rung_of
 from planner.mission.recovery_steps import (
-    climb_on,
     end_manoeuvre,
     next_rung,
     note_recovery,
+    skip_rung,
     way_shut,
 )
 from planner.mission.route_doubts import take_doubted
 from planner.mission.scene import scene_of
 from planner.mission.state import Mission, Progress
-from planner.mission.step_execution import carry_out
+from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.plan import Code
 from planner.site.polygon import contains
 from planner.skills import Fail, Way, act_of
+from planner.skills.skill_state import ExploreState
 from wire import Pose2
 
 SHORT_M = 0.05
@@ -46,18 +61,10 @@ OCCUPIED = "goal_occupied"
 """The route search's code where something not on the map leaves no floor beside the goal."""
 MAX_APPROACHES = 2
 TRANSIENT = frozenset({"route_timed_out", "route_worker_died", "route_worker_unavailable"})
-MAX_ROUTES = 5
-RETRY_S = 1.0
 TURNED_S, SLOWLY_MPS = 12.0, 0.2
 """Beside what stands 0.06 m away the gate lets the robot turn at 0.3 rad/s; then it drives off."""
 HOLDS_S = 2.0
 """Before one that makes way a robot stands so long, and longer while no way leads past it."""
-_TAKEN_BESIDE = {
-    RoutePurpose.DOUBT: take_doubted,
-    RoutePurpose.KEEP_RIGHT: take_doubted,
-    RoutePurpose.EXPLORE: take_better_viewpoint,
-}
-"""Who takes the answer to a search without which the leg goes on."""
 
 
 def on_routed(turn: Transaction, routed: Routed) -> None:
@@ -127,7 +134,7 @@ def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Rou
     turn.change(manoeuvre=own, leg=None)
 
 
-def _stay_aside(turn: Transaction, mission: Progress, leg: Driving, own: Manoeuvre) -> None:
+def _stay_aside(turn: Transaction, mission: Progress, leg: LegRoutes, own: Manoeuvre) -> None:
     """Stand where it is, where somebody can pass; a leg that is streamed goes on by itself."""
     until_s = turn.now_s + aside_s(mission.recovery)
     turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
@@ -167,16 +174,14 @@ def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: st
         turn.change(retry_s=turn.now_s + RETRY_S if leg.leg is None else None)
     elif leg.leg is None and _waits_on(turn, mission, leg):
         turn.change(retry_s=turn.now_s + RETRY_S)
-    elif leg.leg is None:
-        climb_on(turn)
     else:
-        next_rung(turn)
+        skip_rung(turn, leg)
 
 
-def _waits_on(turn: Transaction, mission: Progress, leg: Driving) -> bool:
+def _waits_on(turn: Transaction, mission: Progress, leg: LegHolds) -> bool:
     """Tell whether the wait that is in hand goes on: what stands there may leave any moment."""
     rung, since_s = rung_of(mission.recovery), leg.rung_since_s
-    waits = rung.recovery is Recovery.WAIT and since_s is not None
+    waits = rung.recovery is Recovery.WAIT
     return waits and since_s is not None and turn.now_s - since_s < rung.seconds
 
 
@@ -218,3 +223,61 @@ def _is_outside(turn: Transaction, driving: Driving, pose: Pose2) -> bool:
     if target is None or not target.room or target.polygon is None:
         return False
     return not contains(target.polygon, pose.x_m, pose.y_m)
+
+
+AGAIN_S = 3.0
+"""The map is drawn anew every 2 s."""
+ELSEWHERE_M = 0.3
+
+
+def reconsider_viewpoint(turn: Transaction) -> None:
+    """Ask whether to look from elsewhere, for a leg that explores and is driven undisturbed."""
+    leg, now_s = turn.driving, turn.now_s
+    if leg is None or leg.leg is None or not isinstance(leg.act.state, ExploreState):
+        return
+    if leg.ticket is None and now_s - max(leg.since_s, leg.explore_asked_s) >= AGAIN_S:
+        turn.change(explore_asked_s=now_s)
+        ask_route(turn, RoutePurpose.EXPLORE)
+
+
+def take_better_viewpoint(
+    turn: Transaction, mission: Mission, leg: Driving, routed: Routed
+) -> None:
+    """Turn to another spot, or end where nothing is left to look at; else the leg goes on."""
+    floor, end_m = routed.floor, routed.end_m
+    if floor is None or end_m is None or leg.leg is None:
+        return
+    off_m = hypot(end_m[0] - leg.act.goal.x_m, end_m[1] - leg.act.goal.y_m)
+    if floor.explored or off_m > ELSEWHERE_M:
+        take_viewpoint(turn, mission, leg, routed)
+
+
+def take_viewpoint(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:
+    """Drive to where the route ends, or tell the skill that all was explored."""
+    act, floor, end_m = leg.act, routed.floor, routed.end_m
+    state = act.state
+    if not isinstance(state, ExploreState) or floor is None or end_m is None:
+        fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
+        return
+    known_m2 = round(floor.known_m2, 1)
+    if floor.explored:
+        go_on(turn, state.but(known_m2=known_m2, explored=True))
+        return
+    act = replace(
+        act,
+        way=Way.ROUTE,
+        goal=Pose2(*end_m, act.goal.yaw_rad),
+        state=state.but(known_m2=known_m2),
+        then=act.then.but(known_m2=known_m2) if act.then is not None else None,
+        otherwise=act.otherwise.but(known_m2=known_m2) if act.otherwise is not None else None,
+    )
+    turn.change(act=act)
+    new_leg(turn, mission)
+
+
+_TAKEN_BESIDE = {
+    RoutePurpose.DOUBT: take_doubted,
+    RoutePurpose.KEEP_RIGHT: take_doubted,
+    RoutePurpose.EXPLORE: take_better_viewpoint,
+}
+"""Who takes the answer to a search without which the leg goes on."""

@@ -13,13 +13,15 @@ of the step any more: what odometry counted stands.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import cos, sin
+from math import cos, hypot, sin
 
 from planner.language.catalogue import say
-from planner.mission.activity import Driving, RoutePurpose
+from planner.mission.account import place_name
+from planner.mission.activity import Driving, LegRoutes, RoutePurpose
 from planner.mission.effects import AskRoute
 from planner.mission.queue import finish, standing_hold
 from planner.mission.recovery import passes_m, shut_now, waits_for_other
+from planner.mission.spoken_status import tell_occupied
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -46,10 +48,9 @@ def ask_route(
     turn: Transaction, purpose: RoutePurpose = RoutePurpose.LEG, *, keep_right_m: float = 0.0
 ) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
-    mission, leg, status = turn.running, turn.driving, turn.book.status
+    mission, leg, start = turn.running, turn.driving, turn.book.pose
     if mission is None or leg is None:
         return
-    start = status.base_in_map if status is not None else None
     if start is None:
         turn.change(retry_s=turn.now_s + RETRY_S)
         return
@@ -63,7 +64,7 @@ def ask_route(
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
     turn.set(tickets=ticket)
     turn.change(ticket=ticket, purpose=purpose, retry_s=None, route_when_standing=False)
-    shut = shut_now(record, turn.now_s + turn.book.wall_offset_s) if way in _ROUND else ()
+    shut = shut_now(record, turn.now_unix_s) if way in _ROUND else ()
     seen = purpose is RoutePurpose.DETOUR or way is Way.STRAIGHT or bool(shut)
     heading = leg.act.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
@@ -79,7 +80,7 @@ def ask_route(
 
 def take_short(turn: Transaction, leg: Driving, short_m: float) -> None:
     """Judge a straight way that ends early: under way something may leave again, at first not."""
-    pose = turn.book.status.base_in_map if turn.book.status is not None else None
+    pose = turn.book.pose
     if leg.leg is not None or leg.purpose is RoutePurpose.DETOUR or pose is None:
         detour_failed(turn, leg)
     else:
@@ -96,7 +97,7 @@ def new_leg(turn: Transaction, mission: Mission) -> None:
     turn.change(leg=leg, refused_since_s=None, idle_since_s=None, jumped=False)
 
 
-def detour_failed(turn: Transaction, leg: Driving) -> None:
+def detour_failed(turn: Transaction, leg: LegRoutes) -> None:
     """Try a straight way or a spin again later; after three failures in a row it is blocked."""
     if leg.detours_failed + 1 >= MAX_DETOURS_FAILED:
         fail_step(turn, Fail(Code.BLOCKED, "blocked"))
@@ -112,7 +113,7 @@ def detour_pause_s(tried: int) -> float:
     return min(DETOUR_MOST_S, DETOUR_AFTER_S * 2.0**tried)
 
 
-def detour_if_due(turn: Transaction, leg: Driving, blocked_since_s: float) -> None:
+def detour_if_due(turn: Transaction, leg: LegRoutes, blocked_since_s: float) -> None:
     """Have a straight way or a spin tried again; the old horizon streams on until it is there."""
     due_s = detour_pause_s(leg.detours) if leg.detours else DETOUR_AFTER_S
     if turn.now_s - blocked_since_s < due_s:
@@ -199,3 +200,37 @@ def forget_beginnings(turn: Transaction) -> None:
             finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "steered_meanwhile")
         else:
             turn.put(mission, began_at=None)
+
+
+OCCUPIED_S = 10.0
+"""A goal on which something stands is waited for so long."""
+OCCUPIED_RETRY_S = 2.0
+
+
+def wait_beside(turn: Transaction, mission: Mission, leg: Driving) -> None:
+    """Wait for what stands on the goal to leave; after ten seconds give the goal up."""
+    since_s = leg.occupied_since_s if leg.occupied_since_s is not None else turn.now_s
+    if turn.now_s - since_s >= OCCUPIED_S:
+        give_up_goal(turn, mission, leg)
+        return
+    turn.change(occupied_since_s=since_s, rung_since_s=turn.now_s)
+    turn.change(retry_s=turn.now_s + OCCUPIED_RETRY_S if leg.leg is None else None)
+
+
+def look_for_room(turn: Transaction, mission: Mission, leg: Driving) -> None:
+    """Look again now and then for room beside the goal; give it up after ten seconds."""
+    since_s = leg.occupied_since_s
+    if since_s is not None and turn.now_s - since_s >= OCCUPIED_S:
+        give_up_goal(turn, mission, leg)
+    elif leg.rung_since_s is not None and turn.now_s - leg.rung_since_s >= OCCUPIED_RETRY_S:
+        turn.change(rung_since_s=turn.now_s)
+        ask_route(turn, RoutePurpose.DETOUR)
+
+
+def give_up_goal(turn: Transaction, mission: Mission, leg: Driving) -> None:
+    """Fail the step, with how near the robot came."""
+    pose, goal = turn.book.pose, leg.act.goal
+    near_m = hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m) if pose is not None else 0.0
+    name = place_name(turn.book.facts, mission, mission.current_step)
+    said = tell_occupied(name, near_m)
+    fail_step(turn, Fail(Code.GOAL_OCCUPIED, "goal_occupied", said))

@@ -15,30 +15,21 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.bridge_client import Link, LinkError
-from planner.mission.allowed_commands import refusal
+from planner.bridge_client.bridge_status import at_rest
 from planner.mission.api_view import Progress, goal_of, progress_of
-from planner.mission.bridge_status import at_rest
-from planner.mission.clocks import Clocks, WaypointLatency
-from planner.mission.detector_words import EyeNeeds, Wording, warm_up
-from planner.mission.effects import (
-    AskRoute,
-    ClearHold,
-    Effect,
-    GoalChange,
-    Journal,
-    SayAloud,
-)
+from planner.mission.clocks import Clocks, Collector, WaypointLatency
+from planner.mission.effects import AskRoute, ClearHold, Effect, GoalChange, Journal, SayAloud
 from planner.mission.engine import Engine, Leg, Output, WayAhead
 from planner.mission.errors import MissionError
 from planner.mission.event_hub import Hub
 from planner.mission.events import Command, Event, Journalled, Restarted, Sighted, Tick
-from planner.mission.gc_control import Collector
 from planner.mission.journal_sync import Disk
-from planner.mission.perception_requests import EyeDoor
+from planner.mission.perception_requests import EyeDoor, EyeNeeds, Wording, warm_up
 from planner.mission.reducer import asked_about_picture
+from planner.mission.scan_sender import Surveyor
 from planner.mission.state import GoalKey, MissionState, Rules
-from planner.mission.surveyor import Surveyor
 from planner.mission.tasks import Answers, MissionTasks, call_nothing
+from planner.mission.transitions import refusal
 from planner.navigation import RouteResult
 from planner.skills import Eyesight
 from wire import OpRequest, Status, Waypoints
@@ -158,8 +149,8 @@ class Loop:
         kept = await self._disk.open(self._on_safe)
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
         answers = Answers(
-            *(self.event, self._on_routed, self._link.obstacles, self.event, self._break),
-            recalled=self.event, call=lambda ask: self.call_tool(ask),  # noqa: PLW0108  # set later
+            self.event, self._on_routed, self._link.obstacles, self._break,
+            call=lambda ask: self.call_tool(ask),  # noqa: PLW0108  # set later
         )  # fmt: skip
         self._helpers = MissionTasks(think, router, answers, self.door, recall)
         offset_s = self._clocks.wall() - self._clocks.monotonic()

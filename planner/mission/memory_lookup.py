@@ -1,7 +1,8 @@
-"""Answer from memory and from the goals before, and choose what a brain is shown of it.
+"""Answer from memory and from the goals before, choose what a brain is shown of it, keep facts.
 
-Law: nothing that a model wrote or read comes out of here: sightings are figures, facts a person's
-words, and of a goal for which a picture was read its state alone is told (ADR 0023).
+Laws: nothing that a model wrote or read comes out of here: sightings are figures, facts a person's
+words, and of a goal for which a picture was read its state alone is told (ADR 0023). Only a
+person's own words are kept.
 """
 
 from __future__ import annotations
@@ -9,29 +10,42 @@ from __future__ import annotations
 import logging
 from datetime import datetime
 from math import hypot
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from planner.brain.situation import RememberedItem
-from planner.language.catalogue import message
+from planner.language.catalogue import message, say
+from planner.language.commands import (
+    ForgetFacts,
+    HereCommand,
+    Replace,
+    TeachFact,
+    name_subject,
+    read_fact_correction,
+)
 from planner.language.motion_guard.mentioned_names import places_named
 from planner.language.object_names import name_object
 from planner.language.recall import read_recall
+from planner.language.sentence import parse
 from planner.memory import FACT, KINDS, PERSON, THING, FactRefusal, MemoryQuery
-from planner.mission.deeds import bounds_of, find_deeds, tell_deeds
 from planner.mission.events import Recalled
 from planner.mission.outcomes import spot_at
-from planner.mission.recall_text import tell_memos
+from planner.mission.recall_text import bounds_of, find_deeds, tell_deeds, tell_memos
 from planner.mission.tasks import recall_nothing
-from planner.plan import Code
+from planner.plan import AnswerPlan, Code, GoalState, Refuse, say_same
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from planner.language.commands import Intent
     from planner.memory import Memo, Recollection
     from planner.mission.effects import AskBrain, AskMemory
+    from planner.mission.errors import MissionError
+    from planner.mission.events import Command
     from planner.mission.loop import Loop
-    from planner.mission.state import MissionState
+    from planner.mission.state import GivenOrder, Mission, MissionState
     from planner.plan import Vocabulary
+    from planner.site.known_places import KnownPlaces
+
 
 log = logging.getLogger(__name__)
 
@@ -128,7 +142,7 @@ class MemoryLookup:
 
 def step_kind(book: MissionState) -> str:
     """Return the kind of the step that is under way; empty where none is."""
-    running = book.missions.get(book.running or "")
+    running = book.running_goal
     step = running.current_step if running is not None else None
     return step.kind if step is not None else ""
 
@@ -143,3 +157,115 @@ def _item(memo: Memo, now_unix_s: float) -> RememberedItem:
         said=said,
         fits=memo.fits,
     )
+
+
+SPOKEN_BY = "sentence"
+MOST_FACTS = 20
+"""Older facts about one thing that are looked through."""
+
+
+class GoalBook(Protocol):
+    """Tell where all goals stand, and obey commands about them, as the loop does."""
+
+    @property
+    def book(self) -> MissionState: ...
+
+    @property
+    def status_age_s(self) -> float: ...
+
+    def obey(self, command: Command) -> MissionError | None:
+        """Obey a command at once, or return why it can't be obeyed."""
+
+
+class FactCommands:
+    """Carry out "remember that …" and "forget what I said about …"."""
+
+    def __init__(self, lookup: MemoryLookup | None, places: KnownPlaces, loop: GoalBook) -> None:
+        self._lookup, self._places, self._loop = lookup, places, loop
+
+    def read_correction(self, given: Mission, intent: Intent | None) -> TeachFact | None:
+        """Return the fact that a sentence puts in place of an older one; None where it does not.
+
+        Args:
+            given: the goal that it is.
+            intent: its reading by itself: what takes an order back may correct a fact as well.
+        """
+        before = self._said_before(given)
+        told = None
+        if before is not None and before.state is GoalState.SUCCEEDED and not before.steps:
+            said = parse(before.text)
+            fact = said.intent or said.statement
+            told = fact.words if isinstance(fact, TeachFact) else None
+        if isinstance(intent, Replace | HereCommand) and told is None:
+            return None
+        return read_fact_correction(given.text, told)
+
+    def answers_question(self, given: Mission) -> bool:
+        """Tell whether something that was said just before is still asked about."""
+        before = self._said_before(given)
+        if before is None:
+            return False
+        asked = before.plan is not None and before.plan.code == Code.INCOMPLETE.value
+        open_ = before.state in (GoalState.NEEDS_CLARIFICATION, GoalState.CANCELLED)
+        return asked and open_
+
+    def _said_before(self, given: GivenOrder) -> Mission | None:
+        others = (m for m in self._loop.book.missions.values() if m.order < given.order)
+        return max(others, key=lambda m: m.order, default=None)
+
+    async def carry_out(self, intent: TeachFact | ForgetFacts) -> AnswerPlan | Refuse:
+        """Do it and say how it went."""
+        recollection = self._lookup.recollection if self._lookup is not None else None
+        if recollection is None:
+            return Refuse(code=Code.MEMORY_UNAVAILABLE, reason=message(Code.MEMORY_UNAVAILABLE))
+        try:
+            if isinstance(intent, TeachFact):
+                return await self._teach(recollection, intent)
+            return await self._forget(recollection, intent)
+        except FactRefusal as refused:
+            return Refuse(code=Code.NOT_KEPT, reason=message(Code.NOT_KEPT, why=refused.said))
+
+    async def _teach(self, recollection: Recollection, intent: TeachFact) -> AnswerPlan:
+        named = set(places_named(intent.words, self._places.vocabulary))
+        room = self._find_room() if intent.here else None
+        if room is None and len(named) == 1:
+            room = named.pop()
+        kept = await recollection.teach(
+            intent.words, said_by=SPOKEN_BY, room=room, map_id=self._places.site.map_id
+        )
+        gone = await self._forget_older(recollection, intent.instead_of, kept)
+        if gone:
+            return AnswerPlan(text=say("memory.kept_instead", words=kept.words, old=gone[0].words))
+        if intent.here and room is not None:
+            where = self._loop.book.facts.targets[room].name
+            return AnswerPlan(text=say("memory.kept_here", words=kept.words, room=where))
+        return AnswerPlan(text=say("memory.kept", words=kept.words))
+
+    async def _forget_older(
+        self, recollection: Recollection, thing: str, kept: Memo
+    ) -> tuple[Memo, ...]:
+        """Forget the older facts of where this very thing is; return them, the newest first."""
+        if not thing:
+            return ()
+        query = MemoryQuery(words=thing, kinds=(FACT,), limit=MOST_FACTS)
+        found = await recollection.find(query)
+        older = tuple(m for m in found if m.id != kept.id and name_subject(m.words) == thing)
+        for memo in older:
+            await recollection.forget(memo.id)
+        return older
+
+    def _find_room(self) -> str | None:
+        """Return the room that the robot is in."""
+        book = self._loop.book
+        return spot_at(book.facts, book.pose).room
+
+    async def _forget(self, recollection: Recollection, intent: ForgetFacts) -> AnswerPlan:
+        kinds = ((FACT,) if intent.told else ()) + ((THING, PERSON) if intent.seen else ())
+        if not intent.about:
+            count = await recollection.forget_all(kinds)
+            return AnswerPlan(text=say("memory.forgot_all", count=count))
+        gone = await recollection.forget_about(intent.about, kinds)
+        about = say_same(intent.about)
+        if not gone:
+            return AnswerPlan(text=say("memory.nothing_about", about=about))
+        return AnswerPlan(text=say("memory.forgot", about=about, count=len(gone)))

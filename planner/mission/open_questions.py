@@ -9,17 +9,28 @@ room), so that no number of open questions keeps an order out. After a restart t
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, list_names, message, say
+from planner.language.changes.antecedents import complete_person, complete_place
+from planner.language.changes.reader import read_changes
 from planner.language.folding import fold_words
 from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
 from planner.language.stop import is_stop
-from planner.mission.declined_goals import decline
-from planner.mission.outcomes import ended_outcome, moves
+from planner.mission.outcomes import ended_outcome, moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
-from planner.mission.queue import clear_hold, enqueue, finish, hold_now, note_step, release_answered
+from planner.mission.queue import (
+    clear_hold,
+    decline,
+    enqueue,
+    finish,
+    hold_now,
+    note_step,
+    release_answered,
+)
 from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.state import MAX_ANSWERS, MAX_OPEN, GivenOrder, Mission, MissionState, Planning
 from planner.mission.transaction import Transaction
@@ -27,6 +38,7 @@ from planner.mission.transitions import GoalFact, PersonCause
 from planner.plan import (
     Bilingual,
     Code,
+    Edit,
     GoalAnswer,
     GoalState,
     Outcome,
@@ -34,6 +46,7 @@ from planner.plan import (
     StepState,
     say_same,
 )
+from planner.site.site_view import SiteView
 from planner.skills import Fail
 from planner.skills.ask import ask, tell_declined
 from planner.skills.skill_state import BoundedSearchState
@@ -45,31 +58,57 @@ _MARKS = " .,!?;~…。，！？；"
 _YES_OR_NO = say("question.yes_or_no")
 
 
-def asks(mission: Mission) -> bool:
-    """Tell whether a goal waits for the answer to a question of one of its own steps."""
-    step = mission.current_step
-    return (
-        mission.state is GoalState.NEEDS_CLARIFICATION
-        and step is not None
-        and step.state is StepState.RUNNING
-    )
+class AwaitedWord(StrEnum):
+    """Name what a goal waits for from a person."""
+
+    STEP = "the answer to a question of one of its own steps"
+    PLAN = "a yes to its plan"
+    OFFER = "a yes to the one order that a brain's question offers"
+    CHOICE = "one of several orders that a brain's question offers"
+    ORDER = "a brain's question about the order, which offers none"
+    FREELY = "whatever is answered: a model asks about the order, offers none and reads it"
 
 
-def confirms(mission: Mission) -> bool:
-    """Tell whether a plan waits for a yes."""
-    return mission.state is GoalState.AWAITING_CONFIRMATION
+ABOUT_ORDER = frozenset(
+    {AwaitedWord.OFFER, AwaitedWord.CHOICE, AwaitedWord.ORDER, AwaitedWord.FREELY}
+)
+TAKES_YES = frozenset({AwaitedWord.STEP, AwaitedWord.PLAN, AwaitedWord.OFFER})
+"""A plain yes or no answers these."""
+
+
+def wait_of(mission: Mission) -> AwaitedWord | None:
+    """Return what a goal waits for from a person; None: for nothing.
+
+    An order to stop is no offer: it is taken from a person's own words alone.
+    """
+    step, plan, brain = mission.current_step, mission.plan, mission.brain
+    if mission.state not in WAITS:
+        return None
+    if mission.state is GoalState.AWAITING_CONFIRMATION:
+        return AwaitedWord.PLAN
+    if step is not None and step.state is StepState.RUNNING:
+        return AwaitedWord.STEP
+    if plan is None or len(plan.options) == 1:
+        return (
+            AwaitedWord.OFFER
+            if plan is not None and not is_stop(plan.options[0].text)
+            else AwaitedWord.ORDER
+        )
+    if plan.options:
+        return AwaitedWord.CHOICE
+    model = brain is not None and brain.name != OFFLINE
+    return AwaitedWord.FREELY if model else AwaitedWord.ORDER
 
 
 def find_offer(mission: Mission) -> str | None:
-    """Return the one order that a brain's question offers; None where it offers none or several.
+    """Return the one order that a brain's question offers; None where it offers none or several."""
+    offers = mission.plan is not None and wait_of(mission) is AwaitedWord.OFFER
+    return mission.plan.options[0].text if mission.plan is not None and offers else None
 
-    An order to stop is none: it is taken from a person's own words alone.
-    """
-    plan = mission.plan
-    if mission.state is not GoalState.NEEDS_CLARIFICATION or plan is None or asks(mission):
-        return None
-    only = plan.options[0].text if len(plan.options) == 1 else None
-    return only if only is not None and not is_stop(only) else None
+
+def list_waiting(book: MissionState, besides: str = "") -> tuple[Mission, ...]:
+    """Return the goals that wait for a person's word, besides one."""
+    return tuple(m for m in book.missions.values() if m.state in WAITS and m.id != besides)
 
 
 def find_choice(mission: Planning, answer: str) -> str | None:
@@ -93,11 +132,28 @@ def find_offered_plan(
     ``is_standing``: what the standing order does each time that was laid before the person.
     """
     plan = mission.plan
-    if plan is None or mission.state is not GoalState.NEEDS_CLARIFICATION or asks(mission):
+    if plan is None or wait_of(mission) not in ABOUT_ORDER:
         return None
     order = find_offer(mission) if parse(answer).consent else find_choice(mission, answer)
     taken = (each for each in plan.options if each.text in (order, answer))
     return next((each.plan for each in taken if each.is_standing is is_standing), None)
+
+
+def complete_order(facts: SiteView, asking: Mission, answer: str) -> str:
+    """Return the order that an answer agrees to, chooses or completes.
+
+    Else it is the answer as it was said.
+    """
+    offered = find_offer(asking) if parse(answer).consent else None
+    chosen = offered or find_choice(asking, answer)
+    if chosen is not None or asking.brain is None or asking.brain.name != OFFLINE:
+        return chosen or answer
+    changes = read_changes(answer, facts.names)
+    named = [complete_place(each, asking, facts.names) for each in changes]
+    placed = [
+        complete_person(each, asking, facts.names) for each in changes if each.act is Edit.WHERE
+    ]
+    return next((order for order in (*named, *placed) if order is not None), answer)
 
 
 def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) -> Mission:
@@ -106,7 +162,7 @@ def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) 
         asked=mission.outcome.message if mission.outcome is not None else None,
         said=None if said is None else said[:MAX_ANSWER],
         by=by,
-        unix_s=turn.now_s + turn.book.wall_offset_s,
+        unix_s=turn.now_unix_s,
     )
     answers = (*mission.answers, answer)[-MAX_ANSWERS:]
     return turn.put(mission, answers=answers, given_under_hold=hold_now(turn, mission.source))
@@ -141,30 +197,11 @@ def tell_offer(mission: Planning, question: Bilingual) -> Bilingual:
     return say("question.offers", asked=question, order=order[:200])
 
 
-def asks_freely(mission: Mission) -> bool:
-    """Tell whether a model asks about an order and offers none: it reads whatever is answered."""
-    plan, brain = mission.plan, mission.brain
-    about_order = mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
-    model = brain is not None and brain.name != OFFLINE
-    return about_order and model and plan is not None and not plan.options
-
-
-def takes_yes(mission: Mission) -> bool:
-    """Tell whether a plain yes or no answers what a goal waits for."""
-    return asks(mission) or confirms(mission) or find_offer(mission) is not None
-
-
 def awaits(mission: Mission, text: str) -> bool:
     """Tell whether a sentence is the very word that a goal's step waits for."""
-    step = mission.current_step if asks(mission) else None
+    step = mission.current_step if wait_of(mission) is AwaitedWord.STEP else None
     word = None if step is None else step.word
     return word is not None and fold_words(text).strip(_MARKS) == fold_words(word).strip(_MARKS)
-
-
-def chooses(mission: Mission) -> bool:
-    """Tell whether a brain's question offers several orders."""
-    is_open = mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
-    return is_open and mission.plan is not None and len(mission.plan.options) > 1
 
 
 def ask_which(turn: Transaction, mission: Mission) -> None:
@@ -246,30 +283,25 @@ def _offer_sure_reading(turn: Transaction, mission: Mission) -> bool:
     if same or unwalkable(turn.book, mission, sure.steps) is not None:
         return False
     why = say("confirmation.would", deed=whole_deed(turn.book.facts, sure.steps))
-    said = Outcome(code=Code.CONFIRM, message=message(Code.CONFIRM, why=why))
+    said = plain_outcome(Code.CONFIRM, why=why)
     turn.put(mission, plan=sure, sure=None, reason="new_plan", outcome=said)
     return True
 
 
 def ask_plainly(turn: Transaction, mission: Mission) -> None:
     """Ask for a yes or no to a plan, after an answer that is neither."""
-    asked = mission.outcome.message if mission.outcome is not None else _shall_i(mission.text)
+    shall_i = message(Code.ASKED, text=say("question.shall_i_do", text=mission.text[:200]))
+    asked = mission.outcome.message if mission.outcome is not None else shall_i
     if not asked.en.startswith(_YES_OR_NO.en):
         asked = join((_YES_OR_NO, asked), "joint.none")
     turn.put(mission, outcome=Outcome(code=Code.CONFIRM, message=asked))
-
-
-def _shall_i(text: str) -> Bilingual:
-    return message(Code.ASKED, text=say("question.shall_i_do", text=text[:200]))  # fmt: skip
 
 
 def end_unanswered(turn: Transaction) -> None:
     """End every goal whose question nobody answered in time; note since when the others wait."""
     asked_s: dict[str, float] = {}
     limit_s = turn.book.rules.answer_s
-    for mission in tuple(turn.book.missions.values()):
-        if mission.state not in WAITS:
-            continue
+    for mission in list_waiting(turn.book):
         since_s = turn.book.asked_s.get(mission.id, turn.now_s)
         if turn.now_s - since_s > limit_s:
             said = message(Code.NO_ANSWER, text=_repeat_question(mission), seconds=f"{limit_s:.0f}")
@@ -298,32 +330,29 @@ def close_older(turn: Transaction, new: GivenOrder) -> None:
     """
     for mission in tuple(turn.book.missions.values()):
         older = mission.order < new.order and mission.source == new.source
-        if older and _about_order(mission):
+        if older and wait_of(mission) in ABOUT_ORDER:
             _make_way(turn, mission, new.text)
 
 
 def has_room(book: MissionState) -> bool:
     """Tell whether one more order can be taken, perhaps in place of a question."""
-    open_ = [m for m in book.missions.values() if not m.has_ended]
-    return len(open_) < MAX_OPEN or any(m.state in WAITS for m in open_)
+    return count_open(book) < MAX_OPEN or bool(list_waiting(book))
+
+
+def count_open(book: MissionState) -> int:
+    """Count the goals that have not ended."""
+    return sum(not m.has_ended for m in book.missions.values())
 
 
 def make_room(turn: Transaction, text: str) -> None:
     """End the oldest questions while goals are more than may be open: about orders first."""
-    while True:
-        open_ = [m for m in turn.book.missions.values() if not m.has_ended]
-        waiting = [m for m in open_ if m.state in WAITS]
-        if len(open_) < MAX_OPEN or not waiting:
-            return
+    while count_open(turn.book) >= MAX_OPEN and (waiting := list_waiting(turn.book)):
         _make_way(turn, min(waiting, key=_worth), text)
 
 
 def _worth(mission: Mission) -> tuple[int, int]:
-    return (0 if _about_order(mission) else 1 if confirms(mission) else 2), mission.order
-
-
-def _about_order(mission: Mission) -> bool:
-    return mission.state is GoalState.NEEDS_CLARIFICATION and not asks(mission)
+    waits = wait_of(mission)
+    return (0 if waits in ABOUT_ORDER else 1 if waits is AwaitedWord.PLAN else 2), mission.order
 
 
 def _make_way(turn: Transaction, mission: Mission, newer: str) -> None:
@@ -339,7 +368,4 @@ def _repeat_question(mission: Mission) -> Bilingual:
 def _end(
     turn: Transaction, mission: Mission, said: Bilingual, cause: GoalFact, reason: str
 ) -> None:
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
-    outcome: Outcome = ended_outcome(turn.book.facts, mission, turn.book.status, now_unix_s,
-                             code=Code.NO_ANSWER, said=said)  # fmt: skip
-    finish(turn, mission, cause, outcome, reason)
+    finish(turn, mission, cause, ended_outcome(turn, mission, Code.NO_ANSWER, said), reason)

@@ -5,27 +5,22 @@
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, hypot, inf, sin
 
 from planner.language.catalogue import message, say
 from planner.language.formatting import definite
 from planner.language.questions import looks_round
 from planner.mission.account import MOTION, account, place_name
 from planner.mission.state import GivenOrder, Mission, Progress
-from planner.plan import (
-    Bilingual,
-    Code,
-    Outcome,
-    Spot,
-    StepRecord,
-    StepState,
-)
+from planner.mission.transaction import Transaction
+from planner.plan import Bilingual, Code, Outcome, Spot, StepRecord, StepState
 from planner.site.polygon import contains
-from planner.site.site_view import SiteView
-from wire import Pose2, Status
+from planner.site.site_view import SiteView, Target
+from wire import Pose2
 
 AHEAD_M = 1.0
 """What lies so far before a camera fills its picture."""
+NEAR_M = 1.0
 MAX_LIMITS_NAMED = 5
 MIN_LIMIT_SHARE = 0.02
 """A limit that was the nearest one in under 2 % of the statuses explains nothing."""
@@ -51,6 +46,17 @@ def spot_at(facts: SiteView, pose: Pose2 | None, place: str | None = None) -> Sp
         y_m=round(pose.y_m, 3),
         yaw_rad=round(pose.yaw_rad, 4),
     )
+
+
+def find_place_near(facts: SiteView, pose: Pose2) -> Target | None:
+    """Return the nearest place that is no room, where it is at hand."""
+    near = [
+        (hypot(t.pose.x_m - pose.x_m, t.pose.y_m - pose.y_m), t.id)
+        for t in facts.targets.values()
+        if not t.room
+    ]
+    far_m, place = min(near, default=(inf, ""))
+    return facts.targets[place] if far_m <= NEAR_M else None
 
 
 def looks_into(facts: SiteView, place: str, pose: Pose2 | None) -> bool:
@@ -92,14 +98,13 @@ def limits(mission: Progress) -> tuple[str, ...]:
     return tuple(name for _, name in named[:MAX_LIMITS_NAMED])
 
 
+def plain_outcome(code: Code, **facts: str | float | Bilingual) -> Outcome:
+    """Return a code with its own sentence."""
+    return Outcome(code=code, message=message(code, **facts))
+
+
 def ended_outcome(
-    facts: SiteView,
-    mission: Mission,
-    status: Status | None,
-    now_unix_s: float,
-    *,
-    code: Code,
-    said: Bilingual | None,
+    turn: Transaction, mission: Mission, code: Code, said: Bilingual | None
 ) -> Outcome:
     """Return the outcome of a mission that had begun: each step's result, and the figures.
 
@@ -108,22 +113,17 @@ def ended_outcome(
     drives = [s for s in mission.steps if moves(s)]
     tried = [s for s in drives if s.state not in (StepState.PENDING, StepState.SKIPPED)]
     last = tried[-1] if tried else (drives[0] if drives else None)
-    pose = status.base_in_map if status is not None else None
+    facts = turn.book.facts
     return Outcome(
         code=code,
         message=account(facts, mission, code, said),
         asked=asked_spot(facts, mission, last) if last is not None else None,
         reached=(last.reached if last is not None and last.reached else None)
-        or (spot_at(facts, pose) if tried else None),
+        or (spot_at(facts, turn.book.pose) if tried else None),
         metres=round(mission.metres, 3),
-        seconds=round(max(0.0, now_unix_s - mission.created_unix_s), 3),
+        seconds=round(max(0.0, turn.now_unix_s - mission.created_unix_s), 3),
         limited_by=limits(mission),
     )
-
-
-def thoughts(count: int) -> Bilingual:
-    """Name the thoughts that a goal may have under way, as a budget."""
-    return say("account.thoughts", count=count)
 
 
 def failure(

@@ -12,14 +12,21 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner.bridge_client.bridge_status import standing
 from planner.language.catalogue import message, say, say_or_quote
-from planner.mission.activity import AskingImage, CallingTool, Driving, LookingUp, Observing
-from planner.mission.bridge_status import standing
+from planner.mission.activity import (
+    AskingImage,
+    AwaitingAnswer,
+    CallingTool,
+    Driving,
+    LookingUp,
+    Observing,
+)
 from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
 from planner.mission.outcomes import looks_into
 from planner.mission.queue import settle_activity
-from planner.mission.scene import pose_now, scene_of
+from planner.mission.scene import scene_of
 from planner.mission.step_execution import carry_out, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -43,6 +50,7 @@ from wire import wrap
 
 if TYPE_CHECKING:
     from planner.mission.events import Recalled, ToolAnswered
+    from planner.mission.state import Mission
     from planner.mission.transaction import Transaction
 
 
@@ -100,11 +108,16 @@ def stand_while_blind(turn: Transaction) -> bool:
 
 def on_told(turn: Transaction, mission_id: str, ticket: int, answer: ImageAnswer) -> None:
     """Take the answer about the picture, if somebody still waits for it."""
-    mission, activity = turn.running, turn.book.activity
-    if mission is None or mission.id != mission_id or not isinstance(activity, AskingImage):
-        return
-    if activity.ticket == ticket:
+    activity = turn.book.activity
+    if isinstance(activity, AskingImage) and _goal_awaiting(turn, mission_id, ticket) is not None:
         go_on(turn, activity.act.then, answer=answer)
+
+
+def _goal_awaiting(turn: Transaction, mission_id: str, ticket: int) -> Mission | None:
+    """Return the running goal, if it still waits for the answer to this question."""
+    mission, activity = turn.running, turn.book.activity
+    waits = isinstance(activity, AwaitingAnswer) and activity.ticket == ticket
+    return mission if waits and mission is not None and mission.id == mission_id else None
 
 
 def on_standing(turn: Transaction) -> None:
@@ -137,7 +150,7 @@ def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     if mission is not None and isinstance(then, PatrolState):
         stop = len(then.stops)
         place = mission.steps[mission.step].places[stop]
-        inward = looks_into(turn.book.facts, place, pose_now(turn))
+        inward = looks_into(turn.book.facts, place, turn.book.pose)
         turn.emit(SavePicture(mission.id, mission.step, stop, place, gaze.look_seq, inward))
     faced = then.faced if isinstance(then, LookState) else ()
     if mission is not None and faced and turn.book.eyes.model:
@@ -188,7 +201,12 @@ def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     if _is_under_way(activity, act):
         if isinstance(act, (DriveLeg, Observe)) and activity.act.watch:
             turn.change(act=replace(activity.act, state=act.state, then=act.then))
-    elif isinstance(act, DriveLeg) and isinstance(activity, Driving) and _is_one_way(activity, act):
+    elif (
+        isinstance(act, DriveLeg)
+        and isinstance(activity, Driving)
+        and activity.act.watch
+        and activity.act.way is act.way is Way.ROUTE
+    ):
         _lay_anew(turn, activity, act)
     else:
         settled = settle_activity(turn)
@@ -210,10 +228,6 @@ def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
     return apart_m <= SAME_M
 
 
-def _is_one_way(leg: Driving, act: DriveLeg) -> bool:
-    return leg.act.watch and leg.act.way is Way.ROUTE and act.way is Way.ROUTE
-
-
 def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
     """Aim the leg at a goal that has moved; the old horizon streams until the new way is there."""
     laid = replace(
@@ -223,35 +237,26 @@ def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
         state=act.state,
         then=act.then,
         otherwise=act.otherwise,
-        limit_s=_raise_limit(leg.moving_s, act.limit_s),
-        limit_m=_raise_limit(leg.metres, act.limit_m),
+        # So much was spent before it was laid, of a leg that goes on.
+        limit_s=leg.moving_s + act.limit_s if act.limit_s is not None else None,
+        limit_m=leg.metres + act.limit_m if act.limit_m is not None else None,
     )
     turn.change(act=laid)
     ask_route(turn)
 
 
-def _raise_limit(spent: float, limit: float | None) -> float | None:
-    """Return the limit of a leg that goes on, of which so much was spent before it was laid."""
-    return spent + limit if limit is not None else None
-
-
 def on_recalled(turn: Transaction, event: Recalled) -> None:
     """End the step with memory's answer, if it still waits for it."""
-    mission, activity = turn.running, turn.book.activity
-    if mission is None or mission.id != event.id or not isinstance(activity, LookingUp):
-        return
-    if activity.ticket != event.ticket:
-        return
-    step = mission.steps[mission.step]
-    carry_out(turn, mission, judge_recalled(step.role, event.code, event.said))
+    mission = _goal_awaiting(turn, event.id, event.ticket)
+    if mission is not None and isinstance(turn.book.activity, LookingUp):
+        step = mission.steps[mission.step]
+        carry_out(turn, mission, judge_recalled(step.role, event.code, event.said))
 
 
 def on_tool_answered(turn: Transaction, event: ToolAnswered) -> None:
     """End the step with a tool's answer, or ask a person first, if the step still waits for it."""
-    mission, activity = turn.running, turn.book.activity
-    if mission is None or mission.id != event.id or not isinstance(activity, CallingTool):
-        return
-    if activity.ticket != event.ticket:
+    mission = _goal_awaiting(turn, event.id, event.ticket)
+    if mission is None or not isinstance(turn.book.activity, CallingTool):
         return
     if event.asks:
         carry_out(turn, mission, Question(event.said, ToolState(question=event.said)))
@@ -265,13 +270,13 @@ def on_tool_answered(turn: Transaction, event: ToolAnswered) -> None:
 def end_lookup_if_due(turn: Transaction) -> None:
     """End a wait for memory, or for a tool, that has lasted too long."""
     mission, activity = turn.running, turn.book.activity
-    if isinstance(activity, CallingTool) and turn.now_s >= activity.until_s and mission is not None:
-        said = message(
-            Code.TOOL_FAILED, call=mission.steps[mission.step].tool, why=say("tool_problem.timeout")
-        )
+    late = isinstance(activity, CallingTool | LookingUp) and turn.now_s >= activity.until_s
+    if mission is None or not late:
+        return
+    step = mission.steps[mission.step]
+    if isinstance(activity, CallingTool):
+        said = message(Code.TOOL_FAILED, call=step.tool, why=say("tool_problem.timeout"))
         carry_out(turn, mission, Fail(Code.TOOL_FAILED, "timeout", said))
-        return
-    if mission is None or not isinstance(activity, LookingUp) or turn.now_s < activity.until_s:
-        return
-    code, step = Code.MEMORY_UNAVAILABLE, mission.steps[mission.step]
-    carry_out(turn, mission, judge_recalled(step.role, code, message(code)))
+    else:
+        code = Code.MEMORY_UNAVAILABLE
+        carry_out(turn, mission, judge_recalled(step.role, code, message(code)))

@@ -5,6 +5,11 @@ the model was asked, and in no other: once that is gone, the point is. What a mo
 for people and never a step. A look in several directions is asked about with a picture of each,
 kept here as it went on; where one is missing, after a restart, with the newest alone, and the
 answer says so. Whatever fails comes back as a code inside the answer.
+
+What would hold up the mission loop is prepared: how words are read, and the spots of rooms. A
+detector says what it knows when it is ready, long after the start. To read words in class names of
+its own takes patterns that cost tens of milliseconds, more than the event loop may be held up for
+(docs/adr/0026): a thread makes them, and until they are there its classes count as not known.
 """
 
 from __future__ import annotations
@@ -18,16 +23,24 @@ from typing import TYPE_CHECKING, Any
 from planner.brain.errors import BadPlan, BrainDown
 from planner.brain.image_questions import MAX_VIEWS, DirectionView, ImagePoint, ImageQuestion
 from planner.brain.image_questions import PosedPicture as Shown
+from planner.language.changes.reader import read_changes
+from planner.language.object_names import prepare
+from planner.language.sentence import parse
 from planner.memory import MEDIA_TYPES, KeptPicture
 from planner.mission.events import Told
+from planner.mission.reducer import looks, looks_widely
 from planner.perception.interfaces import PointRefusal
 from planner.skills.perception import ImageAnswer, PictureCost
+from planner.skills.viewpoints import near_spot, spots_in
 
 if TYPE_CHECKING:
     from planner.brain.image_questions import Looker
     from planner.mission.effects import AskEyes, KeepPicture, SavePicture
+    from planner.mission.state import MissionState
     from planner.perception.interfaces import Eyes, Picture
     from planner.perception.snapshot import Detection
+    from planner.site.site_view import SiteView
+
 
 log = logging.getLogger(__name__)
 
@@ -126,12 +139,13 @@ class EyeDoor:
         picture = _newest(eyes, await eyes.fresh()) if eyes is not None else None
         if eyes is None or picture is None:
             return ImageAnswer(failure="camera_silent")
-        if ask.x is not None and ask.y is not None:
+        asked = ask.asked
+        if asked.x is not None and asked.y is not None:
             noted = self._pictures.get(ask.id)
             meant = await asyncio.shield(noted) if isinstance(noted, asyncio.Task) else noted
             if meant is None:  # planned by a planner that is gone, or before any picture came
                 return ImageAnswer(failure="point_no_pose")
-            return await _point(eyes, meant, ask.x, ask.y)
+            return await _point(eyes, meant, asked.x, asked.y)
         if self._looker is None:
             return ImageAnswer(failure="no_vision_model")
         before = self.spent(ask.id)
@@ -146,31 +160,29 @@ class EyeDoor:
     async def _model(
         self, looker: Looker, eyes: Eyes, picture: Picture, ask: AskEyes
     ) -> ImageAnswer:
-        seen = _detections(eyes, picture)
-        asked = ImageQuestion(_pose_picture(eyes, picture), ask.words, ask.language, seen, ask.id)
-        if ask.seek:
+        seen, act, shown = _detections(eyes, picture), ask.asked, _pose_picture(eyes, picture)
+        asked = ImageQuestion(shown, act.words, ask.language, seen, ask.id)
+        if act.seek:
             sighting = await looker.seek(asked)
             counts = (sighting.left, sighting.middle, sighting.right)
             return ImageAnswer(counts=counts, sure=sighting.sure)
-        if ask.point:
+        if act.point:
             found = await looker.point(asked)
             if not isinstance(found, ImagePoint):
                 return ImageAnswer(failure="not_in_picture")
             return await _point(eyes, picture, found.x, found.y)
         views = self._looked_at(ask)
-        said = await looker.describe(replace(asked, direction=ask.now, views=views))
+        said = await looker.describe(replace(asked, direction=act.now, views=views))
         if said.brain.fallback_from is not None:  # the detector spoke: the skill does that itself
             return ImageAnswer(failure=said.brain.fallback_reason)
         return ImageAnswer(text=said.text, seen=said.seen, shown=max(1, len(views)))
 
     def _looked_at(self, ask: AskEyes) -> tuple[DirectionView, ...]:
         """Return the pictures of a look's directions where there are several and all are here."""
-        kept = self._views.pop(ask.id, {})
-        if len(ask.views) < 2 or kept.keys() != set(range(len(ask.views))):
+        kept, names = self._views.pop(ask.id, {}), ask.asked.views
+        if len(names) < 2 or kept.keys() != set(range(len(names))):
             return ()
-        return tuple(
-            DirectionView(kept[n][0], name, kept[n][1]) for n, name in enumerate(ask.views)
-        )
+        return tuple(DirectionView(kept[n][0], name, kept[n][1]) for n, name in enumerate(names))
 
 
 def _cost_between(before: PictureCost, after: PictureCost) -> PictureCost | None:
@@ -210,3 +222,72 @@ def _detections(eyes: Eyes, picture: Picture) -> tuple[Detection, ...]:
     look = eyes.sight.look
     same = look is not None and look.seq == picture.color.header.seq
     return look.detections if look is not None and same else ()
+
+
+class Wording:
+    """Make the newest classes readable, beside the loop."""
+
+    def __init__(
+        self,
+        ready: tuple[str, ...],
+        spawn: Callable[[Coroutine[Any, Any, None]], None],
+        told: Callable[[], None],
+    ) -> None:
+        """Begin with classes that are readable already.
+
+        Args:
+            ready: those.
+            spawn: runs something beside, and keeps hold of it.
+            told: called when others have become readable.
+        """
+        self._ready = self._newest = ready
+        self._spawn, self._told = spawn, told
+
+    def of(self, classes: tuple[str, ...]) -> tuple[str, ...]:
+        """Return these classes, or none while they are not readable yet."""
+        if classes == self._ready:
+            return classes
+        if classes != self._newest:
+            self._newest = classes
+            self._spawn(self._prepare(classes))
+        return ()
+
+    async def _prepare(self, classes: tuple[str, ...]) -> None:
+        await asyncio.to_thread(prepare, classes)
+        self._ready = classes
+        self._told()
+
+
+class EyeNeeds:
+    """Have the eyes look at their full rate while a step needs them, and widely where it does."""
+
+    def __init__(self) -> None:
+        """Begin with nobody who needs them."""
+        self._told = (False, False)
+
+    def tell(self, book: MissionState, eyes: Eyes | None) -> None:
+        """Tell the eyes what is needed of them now, where that has changed."""
+        if eyes is None:
+            return
+        needs = looks(book), looks_widely(book, eyes.open_classes)
+        if needs != self._told:
+            self._told = needs
+            eyes.attend("mission", needs[0], wide=needs[1])
+
+
+def warm_up(facts: SiteView, classes: tuple[str, ...] = ()) -> None:
+    """Work out the spots of every room, and how to read words: in these classes, and in all.
+
+    From where rooms are looked through follows from their outlines alone and is kept once known.
+    Over a home of seven rooms it took 52 ms of a processor in one reduction, more than the event
+    loop may take (docs/adr/0026); the patterns by which words are read as things took 54 ms.
+    The rows of changes and the site's names took 98 ms with the first short sentence, at the door.
+    Takes long: call it off the event loop.
+    """
+    read_changes(parse("go there").text, facts.names)
+    prepare(())
+    prepare(classes)
+    for target in facts.targets.values():
+        if target.room:
+            spots_in(target)
+            near_spot(target)

@@ -18,6 +18,8 @@ from planner.language.catalogue import list_names, message, say, say_or_quote
 from planner.language.formatting import angle, metres
 from planner.language.questions import find_elsewhere
 from planner.language.room_names import sorts_of_room
+from planner.mission.account import name_place
+from planner.mission.outcomes import plain_outcome
 from planner.mission.scene import name_deed, name_sought
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
@@ -31,7 +33,6 @@ from planner.plan import (
     StepRecord,
     check_plan,
     places_of,
-    say_same,
 )
 from planner.skills import SKILLS
 from planner.skills.object_matching import anybody_for, picks_out, read_object
@@ -77,8 +78,7 @@ def unwalkable(
 def _unknown_place(book: MissionState, name: str) -> Outcome:
     """Return that a place is unknown, with those that are known."""
     known = list_names(target.name for target in book.facts.targets.values())
-    said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
-    return Outcome(code=Code.UNKNOWN_PLACE, message=said)
+    return plain_outcome(Code.UNKNOWN_PLACE, name=name, near="", known=known)
 
 
 def _find_unknown_place(
@@ -164,15 +164,14 @@ def key_of_deed(step: StepRecord) -> tuple[object, ...]:
 def _tell(facts: SiteView, step: StepRecord) -> Bilingual:
     """Name a step's deed with all that it would move."""
     if step.places:
-        names = [facts.targets[p].name if p in facts.targets else say_same(p) for p in step.places]
-        return say("deed.drive_to_each", names=list_names(names, "joint.and"))
+        names = list_names((name_place(facts, p) for p in step.places), "joint.and")
+        return say("deed.drive_to_each", names=names)
     if step.angle_rad is not None:
         return say("deed.turn_by", angle=angle(step.angle_rad))
     if step.kind == "move" and step.distance_m is not None:
         return say("deed.move_by", metres=metres(step.distance_m))
     if step.place and step.kind != "go_to":
-        name = facts.targets[step.place].name if step.place in facts.targets else None
-        there = say("deed.drive_to", name=name if name is not None else say_same(step.place))
+        there = say("deed.drive_to", name=name_place(facts, step.place))
         if step.object is None:
             return there
         return say("deed.drive_and_seek", there=there, what=name_sought(step))

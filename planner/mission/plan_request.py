@@ -23,15 +23,15 @@ from planner.brain.situation import RememberedItem, Situation
 from planner.brain.streamed_draft import Draft, Hear
 from planner.brain.tainted_text import think_warily
 from planner.language.catalogue import join, message, say
+from planner.language.changes.antecedents import ORDERS_BACK
 from planner.language.motion_guard import PersonWords, find_unasked, said_words
 from planner.language.object_names import known_words
 from planner.language.place_lists import rejection_outcome
 from planner.language.sentence import parse
 from planner.language.yes_no import consents
-from planner.mission.antecedents import ORDERS_BACK
-from planner.mission.departure import LEANS_S
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
+from planner.mission.follow_up import LEANS_S
 from planner.mission.tasks import Think
 from planner.plan import (
     BARE,
@@ -90,14 +90,11 @@ class Hearing:
                 self._expect(draft.steps)
             if self._clock() - told_s >= TELL_S:
                 told_s = self._clock()
-                self._publish(_event(goal, draft))
+                written = [s.model_dump(mode="json", exclude_none=True) for s in draft.steps]
+                told = {"type": "thinking", "goal": goal, "text": draft.text, "steps": written}
+                self._publish(told)
 
         return hear
-
-
-def _event(goal: str, draft: Draft) -> dict[str, Any]:
-    steps = [step.model_dump(mode="json", exclude_none=True) for step in draft.steps]
-    return {"type": "thinking", "goal": goal, "text": draft.text, "steps": steps}
 
 
 log = logging.getLogger(__name__)
@@ -145,7 +142,7 @@ def thinker(
             language=ask.language,
             runnable=means.plannable | vocabulary.calls,
             blind=means.blind,
-            things=things_of(classes) if means.detector else frozenset(),
+            things=known_words(classes) if means.detector else frozenset(),
             kinds=classes if means.detector else (),
             goal=ask.id,
             observed=ask.observed,
@@ -280,11 +277,3 @@ def _spoken_before(situation: Situation | None) -> tuple[str, ...]:
     fresh = [goal for goal in recent if goal.minutes * 60.0 <= LEANS_S]
     told = ((goal.order, goal.told if goal.outcome in _FOUND else "") for goal in fresh)
     return tuple(words for each in told for words in each if words)
-
-
-def things_of(classes: tuple[str, ...]) -> frozenset[str]:
-    """Return people's names for the things that a detector knows, in both languages.
-
-    None while it has not said what it knows: an unknown place is then told as one.
-    """
-    return known_words(classes)

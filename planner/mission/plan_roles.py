@@ -1,56 +1,46 @@
-"""Let a model's plan act on what runs: in its place, right after it, ending it, or as an answer.
+"""Let a plan act on what runs: in its place, after it, ending it, as an answer, or as a stop.
 
 Laws: a goal is ended only where the person's own words take something back, outside of conditions
 and quotes; a plan that comes in its place ends it no sooner than it may itself be walked. What
 answers a question is what the person said, word for word, and never what a model makes of it: so no
-model can say yes. Pure.
+model can say yes. A goal that a person took back by a stop never goes on by itself, and what is put
+in its place drives without a further yes only where the person's own words take the old one back
+and ask for the new. Pure.
 """
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING
-
-from planner.language.catalogue import list_names, message, say
-from planner.language.motion_guard.clause_moods import ClauseMood
-from planner.language.motion_guard.clauses import read_clauses
+from planner.language.catalogue import join, list_names, say
+from planner.language.commands import ResumeCommand
+from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import label_named, places_named
-from planner.mission.open_questions import WAITS, take_sentence
+from planner.language.motion_guard.taking_back import ends_goal, takes_back
+from planner.language.sentence import parse
+from planner.mission.events import Planned
+from planner.mission.open_questions import list_waiting, take_sentence
+from planner.mission.outcomes import plain_outcome
 from planner.mission.queue import cancel, finish
-from planner.mission.state import goal_to_end
-from planner.mission.transitions import BrainCause
+from planner.mission.spoken_status import stop_told
+from planner.mission.state import GivenOrder, Mission, MissionState, goal_to_end
+from planner.mission.transaction import Transaction
+from planner.mission.transitions import BrainCause, PersonCause
 from planner.plan import (
+    AnswerPlan,
     Bilingual,
     Clarify,
     Code,
     GoalState,
     Option,
     Outcome,
+    Plan,
     PlanRole,
-    Vocabulary,
+    Refuse,
+    StepPlan,
     places_of,
     plan_record,
     say_same,
+    words_of,
 )
-
-if TYPE_CHECKING:
-    from planner.mission.state import GivenOrder, Mission, MissionState
-    from planner.mission.transaction import Transaction
-    from planner.plan import StepPlan
-
-
-_ENDS_IT = (
-    r"\b(?:forget|cancel|never ?mind|scrap|scratch|abort|drop|call off|leave it|skip|enough|quit"
-    r"|(?:don't|do not) (?:go|bother|need|look|do|drive))\b"
-    r"|取消|撤销|算了|放弃|忘了|免了|不用|不要|别"
-)
-_ENDS = re.compile(_ENDS_IT)
-_TAKES_BACK = re.compile(
-    rf"(?:^|[,.;!|] *)(?:\w+ )?(?:no|nope|not)\b|\bnot (?:the|there|that|this)\b"
-    r"|\b(?:instead|rather|wrong|i meant?|changed? (?:my|the|of)|actually|sorry|make (?:it|that))\b"
-    rf"|不对|不是|不去|不不|^不|改|换|错|而是|还是去|我(?:说|要|指)的是|我是说|{_ENDS_IT}"
-)
-
 
 IN_HAND = frozenset(
     {GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION}
@@ -66,24 +56,6 @@ def goal_in_hand(turn: Transaction, new: GivenOrder) -> Mission | None:
         return turn.running
     open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
     return max(open_, key=lambda m: m.order, default=None)
-
-
-def takes_back(text: str) -> bool:
-    """Tell whether a person's words take anything back, whatever they name."""
-    return _TAKES_BACK.search(_unconditional(text)) is not None
-
-
-def ends_goal(text: str) -> bool:
-    """Tell whether a person's words end what is done, and nothing in its place."""
-    return _ENDS.search(_unconditional(text)) is not None
-
-
-def _unconditional(text: str) -> str:
-    """Return what a sentence says outside of conditions and quotes, denials included."""
-    clauses = read_clauses(text, Vocabulary())
-    hangs = any(each.hung or each.mood is ClauseMood.CONDITION for each in clauses)
-    out = {ClauseMood.CONDITION, ClauseMood.DENIED} if hangs else set()
-    return " | ".join(each.text for each in clauses if each.mood not in out and not each.hung)
 
 
 def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:
@@ -170,8 +142,7 @@ def _ask(turn: Transaction, mission: Mission, question: Bilingual, *offers: Opti
 
 
 def _answer(turn: Transaction, mission: Mission, said: Bilingual) -> None:
-    text = message(Code.ANSWERED, text=said)
-    finish(turn, mission, BrainCause.ANSWERS, Outcome(code=Code.ANSWERED, message=text))
+    finish(turn, mission, BrainCause.ANSWERS, plain_outcome(Code.ANSWERED, text=said))
 
 
 def find_asking(turn: Transaction, mission: Mission) -> Mission | None:
@@ -179,7 +150,7 @@ def find_asking(turn: Transaction, mission: Mission) -> Mission | None:
 
     Where none waits, or several, nothing is answered and the person is told so.
     """
-    waiting = [m for m in turn.book.missions.values() if m.state in WAITS and m.id != mission.id]
+    waiting = list_waiting(turn.book, mission.id)
     if not waiting:
         refused = Outcome(code=Code.NOT_UNDERSTOOD, message=say("talk.nothing_asked"))
         finish(turn, mission, BrainCause.REFUSES, refused, Code.NOT_UNDERSTOOD.value)
@@ -207,3 +178,75 @@ def change_speed(turn: Transaction, mission: Mission, *, slower: bool) -> None:
     """
     share = mission.speed_share / 2.0 if slower else mission.speed_share * 2.0
     turn.put(mission, speed_share=min(1.0, max(LEAST_SPEED_SHARE, share)))
+
+
+UNCONFIRMED = say("goal.unconfirmed")
+
+
+def end_stopped(
+    turn: Transaction, mission: Mission, echoed: bool, also: Bilingual | None = None
+) -> None:
+    """End a sentence that was an order to stop, and say whether the bridge has heard it."""
+    heard = stop_told(turn.book) if echoed else UNCONFIRMED
+    told = heard if also is None else join((heard, also))
+    if echoed:
+        said = Outcome(code=Code.STOPPED, message=told)
+        finish(turn, mission, PersonCause.ORDERS_STOP, said)
+        return
+    said = Outcome(code=Code.FAULT, message=told)
+    turn.move_to(mission, PersonCause.STOP_UNHEARD, reason="bridge_silent", outcome=said)
+
+
+def end_paused(turn: Transaction, goal_id: str | None) -> None:
+    """End a goal that a person's words have stopped, and that is not to go on."""
+    stopped = turn.mission(goal_id)
+    if stopped is not None and stopped.state in (GoalState.PAUSED, GoalState.QUEUED):
+        cancel(turn, stopped)
+
+
+def stop_after_all(turn: Transaction, mission: Mission, event: Planned) -> None:
+    """Take a sentence that orders no step for the stop that it was."""
+    plan = event.plan
+    cancels = isinstance(plan, StepPlan) and plan.does is PlanRole.CANCEL
+    if cancels and ends_goal(mission.words):
+        end_paused(turn, mission.interrupted)
+    own = words_of(plan) if event.brain is None else None  # the planner's own, as it was told
+    also = own or _tell_rest(turn, mission, plan)
+    end_stopped(turn, turn.put(mission, brain=event.brain), echoed=True, also=also)
+
+
+def tell_left(rest: str) -> Bilingual | None:
+    """Say that what followed a stop in the same breath was not done; None: nothing did."""
+    return say("goal.rest_left", text=rest[:60]) if rest else None
+
+
+def _tell_rest(turn: Transaction, mission: GivenOrder, plan: Plan | None) -> Bilingual | None:
+    """Say what became of the words behind a stop, of which no step has come."""
+    rest = parse(mission.text).behind_stop
+    if rest and isinstance(plan, AnswerPlan | Refuse):
+        return words_of(plan)
+    if rest and turn.book.queue and _says_go_on(rest):  # not with what was just stopped
+        end_paused(turn, mission.interrupted)
+        waiting = turn.book.missions[turn.book.queue[0]]
+        return say("goal.rest_go_on", text=waiting.text[:60])
+    return tell_left(rest)
+
+
+def _says_go_on(rest: str) -> bool:
+    """Tell whether words begin as an order to go on: "go on with the others"."""
+    words = [*rest] if has_chinese(rest) else rest.split()
+    joint = "" if has_chinese(rest) else " "
+    return any(isinstance(parse(joint.join(words[:n])).intent, ResumeCommand) for n in (1, 2, 3))
+
+
+def corrects(turn: Transaction, mission: Mission) -> bool:
+    """Tell whether a sentence that has stopped a goal puts another drive in its place."""
+    stopped = turn.mission(mission.interrupted)
+    words = parse(mission.text).behind_stop or mission.words  # the stop itself takes nothing back
+    return stopped is not None and bool(stopped.steps) and takes_back(words)
+
+
+def ask_what_was_meant(book: MissionState, mission: GivenOrder) -> Bilingual:
+    """Ask whether a sentence with a stop word in it was an order to do something."""
+    told, text = stop_told(book), mission.text[:60]
+    return say("goal.doubtful_stop", told=told, text=text)

@@ -34,11 +34,11 @@ from planner.language.reading import CommandReading, OrdersReading
 from planner.language.schedule import ChangeOrders, OrderCommand
 from planner.language.sentence import SaidSentence, parse
 from planner.mission import events
-from planner.mission.agents import NEEDED, hold_to_agent, is_agents, may_say
+from planner.mission.agents import MAY_ASK, NEEDED, hold_to_agent, is_agents
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned
-from planner.mission.fact_commands import FactCommands
 from planner.mission.follow_up import last_orders
+from planner.mission.memory_lookup import SPOKEN_BY, FactCommands
 from planner.mission.plan_roles import goals_to_end
 from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
@@ -54,8 +54,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from planner.mission.events import Command, Submitted
-    from planner.mission.goal_book import GoalBook
-    from planner.mission.memory_lookup import MemoryLookup
+    from planner.mission.memory_lookup import GoalBook, MemoryLookup
     from planner.mission.standing_goals import OrderDesk
     from planner.mission.state import Mission, MissionState
     from planner.mission.tasks import Think
@@ -63,8 +62,6 @@ if TYPE_CHECKING:
     from planner.site.places import Place
     from planner.skill_files.keep import SkillKeeper
     from wire import HintVerdict, PoseHint
-
-SPOKEN_BY = "sentence"
 
 
 class HintLink(Protocol):
@@ -107,19 +104,23 @@ class PlannerCommands:
     async def think(self, ask: AskBrain) -> Planned:
         """Answer at once where the planner itself is meant."""
         mission = self._loop.book.missions.get(ask.id)
-        if self.desk is not None and mission is not None and is_of_order(mission):
+        if mission is None:
+            return take_back_offers(await self._brain(ask), self.refuse_offer)
+        if self.desk is not None and is_of_order(mission):
             return await self._think_of_order(self.desk, ask, mission)
-        if mission is not None and is_agents(mission.source):
-            return await self._think_of_agent(ask, mission)
-        if mission is not None:
-            by_person = ask.text == mission.words  # the newest, and not a model's question
-            said, words = parse(ask.own_words if by_person else ""), _WordsOf(self, mission)
-            found: Iterator[OrdersReading | CommandReading]
-            found = readings(said, words, BY_THE_PLANNER)
-            for reading in found:
-                if (taken := await self._take(reading, ask, mission)) is not None:
-                    return taken
-        return take_back_offers(await self._brain(ask), self.refuse_offer)
+        is_newest = ask.text == mission.words  # and not a model's question
+        said, words = parse(ask.own_words if is_newest else ""), _WordsOf(self, mission)
+        by_agent = is_agents(mission.source)
+        found: Iterator[OrdersReading | CommandReading] = readings(said, words, BY_THE_PLANNER)
+        for reading in found:
+            if by_agent and not (
+                isinstance(reading, CommandReading) and isinstance(reading.intent, MAY_ASK)
+            ):
+                return Planned(ask.id, NEEDED)  # it is a person's to say to the planner
+            if (taken := await self._take(reading, ask, mission)) is not None:
+                return taken
+        planned = take_back_offers(await self._brain(ask), self.refuse_offer)
+        return hold_to_agent(planned) if by_agent else planned
 
     async def _take(
         self, reading: OrdersReading | CommandReading, ask: AskBrain, mission: Mission
@@ -136,17 +137,6 @@ class PlannerCommands:
         if mission.steps:
             return None
         return Planned(ask.id, await self.carry_out(reading.intent, mission))
-
-    async def _think_of_agent(self, ask: AskBrain, mission: Mission) -> Planned:
-        """Answer an agent's questions to the planner; refuse what is a person's to say to it."""
-        by_agent = ask.text == mission.words
-        said, words = parse(ask.own_words if by_agent else ""), _WordsOf(self, mission)
-        for reading in readings(said, words, BY_THE_PLANNER):
-            if not isinstance(reading, CommandReading) or not may_say(reading.intent):
-                return Planned(ask.id, NEEDED)
-            if (taken := await self._take(reading, ask, mission)) is not None:
-                return taken
-        return hold_to_agent(take_back_offers(await self._brain(ask), self.refuse_offer))
 
     async def _think_of_order(self, desk: OrderDesk, ask: AskBrain, mission: Mission) -> Planned:
         """Plan the goal of a standing order; a reminder's words are fixed, and no brain's."""
@@ -266,7 +256,7 @@ class PlannerCommands:
         try:
             place, new = await self._memory.teach(Lesson(en=name, by=SPOKEN_BY))
         except PlaceRefusal as refused:
-            return not_kept(refused)
+            return _refuse(Code.PLACE_NOT_KEPT, refused.why)
         names = Bilingual(en=place.name.en, zh=place.name.zh)
         if new:
             return AnswerPlan(text=say("commands.remembered", names=names))
@@ -289,7 +279,7 @@ class PlannerCommands:
         try:
             place = await self._memory.forget(name)
         except PlaceRefusal as refused:
-            return not_kept(refused)
+            return _refuse(Code.PLACE_NOT_KEPT, refused.why)
         return AnswerPlan(
             text=say("commands.forgotten", name=Bilingual(en=place.name.en, zh=place.name.zh))
         )
@@ -302,11 +292,6 @@ _SAID: dict[str, tuple[Bilingual, Bilingual]] = {
     "cancel": (say("commands.cancelled"), say("commands.nothing_to_cancel")),
 }
 """What is said when it was done, and when there was nothing to do it to."""
-
-
-def not_kept(refused: PlaceRefusal) -> Refuse:
-    """Say why a place was not kept or not forgotten."""
-    return _refuse(Code.PLACE_NOT_KEPT, refused.why)
 
 
 def _refuse(code: Code, why: Bilingual) -> Refuse:

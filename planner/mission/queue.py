@@ -9,28 +9,13 @@ answer, too.
 
 from __future__ import annotations
 
-from planner.language.catalogue import message
-from planner.mission.activity import (
-    TIMED,
-    Activity,
-    AskingImage,
-    Driving,
-    Observing,
-    Thinking,
-)
+from planner.mission.activity import TIMED, Activity, AskingImage, Driving, Observing, Thinking
 from planner.mission.effects import ClearHold, DropBrain
-from planner.mission.outcomes import ended_outcome, failure
+from planner.mission.outcomes import ended_outcome, failure, plain_outcome
 from planner.mission.state import AGENT_SOURCE, GivenOrder, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
-from planner.plan import (
-    Bilingual,
-    Code,
-    GoalState,
-    Outcome,
-    PauseReason,
-    StepState,
-)
+from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState
 from planner.skills.state_base import SkillStateBase
 
 PARDON_S = 2.0
@@ -63,26 +48,28 @@ def dequeue(turn: Transaction, mission_id: str) -> None:
 
 def hold_queue(turn: Transaction) -> None:
     """Keep everyone who waits now waiting until a person acts."""
-    for mission_id in turn.book.queue:
-        mission = turn.book.missions[mission_id]
+    for mission in _waiting(turn):
         if not (mission.held and mission.kept):
             turn.put(mission, held=True, kept=True)
 
 
 def release_queue(turn: Transaction) -> None:
     """Let those who were kept waiting take their turns."""
-    for mission_id in turn.book.queue:
-        mission = turn.book.missions[mission_id]
+    for mission in _waiting(turn):
         if mission.held:
             turn.put(mission, held=False, kept=False)
 
 
 def release_answered(turn: Transaction) -> None:
     """Let those take their turns who waited for an answer and for nothing else."""
-    for mission_id in turn.book.queue:
-        mission = turn.book.missions[mission_id]
+    for mission in _waiting(turn):
         if mission.held and not mission.kept:
             turn.put(mission, held=False)
+
+
+def _waiting(turn: Transaction) -> tuple[Mission, ...]:
+    """Return those who wait for the robot, in their order."""
+    return tuple(turn.book.missions[i] for i in turn.book.queue)
 
 
 def hold_now(turn: Transaction, source: str = "") -> str | None:
@@ -177,16 +164,14 @@ def yield_robot(
     """Leave the robot standing and free while a person is asked; queued goals are kept waiting."""
     turn.set(running=None, activity=None)
     turn.move_to(mission, cause, reason=reason, outcome=said)
-    for mission_id in turn.book.queue:
-        if not turn.book.missions[mission_id].held:
-            turn.put(turn.book.missions[mission_id], held=True)
+    for other in _waiting(turn):
+        if not other.held:
+            turn.put(other, held=True)
 
 
 def _hint(reason: str) -> Outcome | None:
     """Tell a person what a paused goal needs, where the reason alone doesn't."""
-    if reason != "disarmed":
-        return None
-    return Outcome(code=Code.NOT_ARMED, message=message(Code.NOT_ARMED))
+    return plain_outcome(Code.NOT_ARMED) if reason == "disarmed" else None
 
 
 def pause_planning(turn: Transaction, mission: Mission, reason: str) -> None:
@@ -208,10 +193,7 @@ def end_running(
     if mission is None:
         return
     said = said or failure(turn.book.facts, mission, mission.current_step, code, row)
-    finish(turn, mission, cause, ended_outcome(
-        turn.book.facts, mission, turn.book.status, turn.now_s + turn.book.wall_offset_s,
-        code=code, said=said,
-    ), reason)  # fmt: skip
+    finish(turn, mission, cause, ended_outcome(turn, mission, code, said), reason)
 
 
 def finish(
@@ -246,12 +228,9 @@ def cancel(turn: Transaction, mission: Mission) -> None:
     if turn.book.running == mission.id:
         end_running(turn, PersonCause.CANCELS, Code.CANCELLED)
         return
-    outcome = Outcome(code=Code.CANCELLED, message=message(Code.CANCELLED))
+    outcome = plain_outcome(Code.CANCELLED)
     if mission.metres > 0.0:
-        outcome = ended_outcome(
-            turn.book.facts, mission, turn.book.status,
-            turn.now_s + turn.book.wall_offset_s, code=Code.CANCELLED, said=outcome.message,
-        )  # fmt: skip
+        outcome = ended_outcome(turn, mission, Code.CANCELLED, outcome.message)
     finish(turn, mission, PersonCause.CANCELS, outcome)
 
 
@@ -260,8 +239,8 @@ def reorder(turn: Transaction, mission_id: str, before: str | None) -> None:
     others = [i for i in turn.book.queue if i != mission_id]
     at = others.index(before) if before is not None and before in others else len(others)
     turn.set(queue=(*others[:at], mission_id, *others[at:]))
-    for moved in turn.book.queue:  # their positions changed: whoever listens must hear it
-        turn.put(turn.book.missions[moved])
+    for moved in _waiting(turn):  # their positions changed: whoever listens must hear it
+        turn.put(moved)
 
 
 def next_up(turn: Transaction) -> Mission | None:
@@ -273,8 +252,7 @@ def next_up(turn: Transaction) -> Mission | None:
         return None
     if any(m.first and m.state is GoalState.PLANNING for m in turn.book.missions.values()):
         return None  # "forget that, …": the robot stays free for what is thought about
-    waiting = (turn.book.missions[i] for i in turn.book.queue)
-    found = next((m for m in waiting if not m.held), None)
+    found = next((m for m in _waiting(turn) if not m.held), None)
     if found is None or _goes_first(found):
         return found
     thinking = (m for m in turn.book.missions.values() if m.state is GoalState.PLANNING)
@@ -287,4 +265,18 @@ def note_step(turn: Transaction, mission: Mission, **changes: object) -> Mission
         return mission
     steps = list(mission.plan.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
-    return turn.put(mission, plan=mission.plan.model_copy(update={"steps": tuple(steps)}))
+    return turn.put_steps(mission, tuple(steps))
+
+
+def decline(turn: Transaction, mission: Mission, said: Bilingual) -> None:
+    """End a goal where the robot stands; a question that was answered is over, the rest skipped."""
+    if turn.book.running == mission.id:
+        mission = settle_activity(turn) or mission
+    if (
+        mission.current_step is not None
+        and mission.current_step.kind == "ask"
+        and mission.current_step.answer is not None
+    ):
+        mission = note_step(turn, mission, state=StepState.SUCCEEDED)
+    outcome = ended_outcome(turn, mission, Code.DECLINED, said)
+    finish(turn, mission, PersonCause.DECLINES, outcome, Code.DECLINED.value)

@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from planner.bridge_client.bridge_status import at_rest
 from planner.language.commands import CancelCommand as TakeBack
 from planner.language.commands import Replace
 from planner.language.commands import ResumeCommand as GoOn
@@ -22,20 +23,21 @@ from planner.language.readers import AT_THE_DOOR, readings, stop
 from planner.language.reading import AnswerReading, ChangeReading, HaltReading
 from planner.language.sentence import SaidSentence
 from planner.mission import agents
-from planner.mission.allowed_commands import refusal
-from planner.mission.bridge_status import at_rest
 from planner.mission.errors import IdempotencyConflict, PersonMissing, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of
-from planner.mission.open_questions import WAITS, asks_freely, awaits, chooses, has_room, takes_yes
-from planner.mission.request_keys import Repeats, body_of, request_of
-from planner.mission.state import (
-    RESERVED_KEYS,
-    GoalKey,
-    MissionState,
-    goal_to_end,
-    newest_paused,
+from planner.mission.open_questions import (
+    TAKES_YES,
+    AwaitedWord,
+    awaits,
+    count_open,
+    has_room,
+    list_waiting,
+    wait_of,
 )
+from planner.mission.request_keys import Repeats, body_of, request_of
+from planner.mission.state import RESERVED_KEYS, GoalKey, MissionState, goal_to_end, newest_paused
+from planner.mission.transitions import refusal
 from planner.plan import ChangedOrder, GoalState
 
 if TYPE_CHECKING:
@@ -107,8 +109,7 @@ def receive(
         changed=lean.changed if lean is not None else None,
     )
     if full and not local:
-        open_goals = sum(not m.has_ended for m in book.missions.values())
-        return Reception(marked, refused=QueueFull(open_goals))
+        return Reception(marked, refused=QueueFull(count_open(book)))
     ends = goal_to_end(book) if lean is not None and lean.ends else None
     return Reception(marked, takes_back=ends, request=request_of(given, key))
 
@@ -123,27 +124,20 @@ def _receive_agent(
     """
     if stop(said, _AtHand(book, now_s)) is not None:
         return Reception(replace(given, stop=True), stops=True)
-    return _receive_plainly(book, given, key, repeats)
+    return receive_points(book, given, key, repeats)
 
 
 def receive_points(
-    book: MissionState, given: Submitted, key: str | None, repeats: Repeats
-) -> Reception:
-    """Return the decision on a goal that was given by points or other steps: no words are read."""
-    return _receive_plainly(book, given, key, repeats)
-
-
-def _receive_plainly(
     book: MissionState, given: Submitted, key: str | None, repeats: Repeats | None
 ) -> Reception:
+    """Return the decision on a goal of which no words are read: it may be given by steps."""
     by_agent = agents.is_agents(given.source)
     if by_agent and given.replace:
         return Reception(given, refused=PersonMissing())
     if (known := _find_known(given, key, repeats)) is not None:
         return known
     if not has_room(book) or (by_agent and not agents.has_room(book)):
-        open_goals = sum(not m.has_ended for m in book.missions.values())
-        return Reception(given, refused=QueueFull(open_goals))
+        return Reception(given, refused=QueueFull(count_open(book)))
     return Reception(given, request=request_of(given, key))
 
 
@@ -268,8 +262,9 @@ def receive_answer(
     if lean is not None and lean.corrects:  # "no, the study": in place of what is asked
         lean = replace(lean, ends=False, first=False, replaces=False)  # what it ends has ended
         return AnswerReception(command=Cancel(goal_id), sentence=said.text, lean=lean)
-    own_question = takes_yes(book.missions[goal_id])  # "go on" may be its answer
-    declines = said.consent is False and (own_question or asks_freely(book.missions[goal_id]))
+    waits = wait_of(book.missions[goal_id])
+    own_question = waits in TAKES_YES  # "go on" may be its answer
+    declines = said.consent is False and (own_question or waits is AwaitedWord.FREELY)
     if (said.stays_put and not declines) or (isinstance(intent, GoOn) and not own_question):
         return AnswerReception(sentence=said.text)
     return AnswerReception(command=Reply(goal_id, said.text, by))
@@ -296,7 +291,7 @@ def hears_stop(book: MissionState, said: SaidSentence, now_s: float) -> bool:
 
 def awaits_answer(book: MissionState) -> bool:
     """Return whether a question waits for a yes or no."""
-    return any(takes_yes(mission) for mission in book.missions.values())
+    return any(wait_of(mission) in TAKES_YES for mission in list_waiting(book))
 
 
 def is_active(book: MissionState, now_s: float) -> bool:
@@ -324,11 +319,13 @@ def goals_answered_by(book: MissionState, said: SaidSentence) -> tuple[str, ...]
     intent = said.intent
     if not (intent is None or (isinstance(intent, GoOn) and goal_to_resume(book) is None)):
         return ()  # "go on" is a yes where there is nothing else to go on with
-    waiting = [m for m in book.missions.values() if m.state in WAITS]
-    taking = {m.id: m.updated_unix_s for m in waiting if takes_yes(m)}
+    waiting = list_waiting(book)
+    taking = {m.id: m.updated_unix_s for m in waiting if wait_of(m) in TAKES_YES}
     if not taking:  # "Do you mean the kitchen?" of a model: it reads the word itself
         alone = len(waiting) == 1 and intent is None
-        return tuple(m.id for m in waiting if chooses(m) or (alone and asks_freely(m)))
+        choices = (m.id for m in waiting if wait_of(m) is AwaitedWord.CHOICE)
+        freely = (m.id for m in waiting if alone and wait_of(m) is AwaitedWord.FREELY)
+        return (*choices, *freely)
     newest_unix_s = max(taking.values())
     return tuple(m.id for m in waiting if m.id in taking or m.updated_unix_s >= newest_unix_s)
 

@@ -10,13 +10,11 @@ from __future__ import annotations
 from dataclasses import replace
 from math import cos, sin
 
+from planner.bridge_client.bridge_status import standing
 from planner.mission.account import place_name
-from planner.mission.activity import Driving, Manoeuvre, RoutePurpose
-from planner.mission.bridge_status import standing
+from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.events import Surveyed
-from planner.mission.legs import ask_route
-from planner.mission.obstruction_text import tell_obstruction
-from planner.mission.occupied_goal import look_for_room
+from planner.mission.legs import RETRY_S, ask_route, look_for_room
 from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
@@ -36,15 +34,13 @@ from planner.mission.recovery import (
     turn_out,
     wait_s,
 )
+from planner.mission.spoken_status import tell_obstruction
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.plan import Code
 from planner.skills import Fail, Way
 from wire import Pose2, Status, wrap
-
-RETRY_S = 1.0
-
 
 # The lidar's word --------------------------------------------------------------------------------
 
@@ -55,7 +51,7 @@ def on_survey(turn: Transaction, survey: Surveyed) -> None:
     if mission is None or leg is None:
         return
     seen, record = survey.obstruction, mission.recovery
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
+    now_unix_s = turn.now_unix_s
     for way in record.shut:
         if any(way.obstruction == gone for gone in survey.opened):
             record = note_open(record, way)
@@ -84,7 +80,7 @@ def recover(turn: Transaction, leg: Driving, status: Status) -> None:
     mission, pose = turn.running, status.base_in_map
     if mission is None or pose is None:
         return
-    record = begin_ladder(mission.recovery, _xy(pose))
+    record = begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
     if record is not mission.recovery:
         mission = turn.put(mission, recovery=record)
         turn.change(rung_since_s=None)
@@ -105,17 +101,14 @@ def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
     and the bridge holds the way again.
     """
     mission, pose = turn.running, status.base_in_map
-    record = turn_out(mission.recovery, _xy(pose)) if mission is not None and pose else None
-    if mission is None or record is None or pose is None:
+    if mission is None or pose is None:
+        return
+    record = turn_out(mission.recovery, (pose.x_m, pose.y_m))
+    if record is None:
         return
     mission = turn.put(mission, recovery=record)
     note_recovery(turn, mission, Recovery.TURN_OUT)
     _turn_to_look(turn, leg, TURN_OUT, 0, pose.yaw_rad)
-
-
-def note_unblocked(turn: Transaction) -> None:
-    """Note that nothing holds the leg now: what stood on its goal has left."""
-    turn.change(occupied_since_s=None)
 
 
 def next_rung(turn: Transaction) -> None:
@@ -152,8 +145,7 @@ def climb_on(turn: Transaction) -> None:
     A wait ends with a new search; the last one, before giving up, would wait for nothing.
     """
     next_rung(turn)
-    mission, status = turn.running, turn.book.status
-    pose = status.base_in_map if status is not None else None
+    mission, pose = turn.running, turn.book.pose
     if mission is None:
         return
     if pose is None:
@@ -191,7 +183,7 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
             _give_up(turn, mission, leg)
 
 
-def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
+def _give_up(turn: Transaction, mission: Mission, leg: LegRoutes) -> None:
     """Fail the step; before somebody who walked up, only once the ladder was climbed thrice."""
     again = climb_again(mission.recovery)
     if again is None:
@@ -202,7 +194,7 @@ def _give_up(turn: Transaction, mission: Mission, leg: Driving) -> None:
     _begin_rung(turn)
 
 
-def _skip_rung(turn: Transaction, leg: Driving) -> None:
+def skip_rung(turn: Transaction, leg: LegRoutes) -> None:
     """Leave a rung out; a leg that streams nothing begins the next one itself."""
     if leg.leg is None:
         climb_on(turn)
@@ -214,7 +206,7 @@ def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRun
     """Stand aside for somebody who walked up; a thing that never moved is not given way to."""
     record = mission.recovery
     if not can_give_way(record) or record.newest is None:
-        _skip_rung(turn, leg)
+        skip_rung(turn, leg)
         return
     update = {"given_way": record.given_way + 1}
     turn.put(mission, recovery=record.model_copy(update=update))
@@ -224,7 +216,7 @@ def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRun
 def _turn_to_look(
     turn: Transaction, leg: Driving, rung: LadderRung, part: int, from_rad: float
 ) -> None:
-    here = turn.book.status.base_in_map if turn.book.status is not None else None
+    here = turn.book.pose
     if here is None:
         return
     goal = Pose2(here.x_m, here.y_m, wrap(from_rad + rung.turns_rad[part]))
@@ -303,7 +295,3 @@ def way_shut(turn: Transaction, mission: Mission) -> Fail:
         return Fail(Code.BLOCKED, "blocked")
     name = place_name(facts, mission, mission.current_step)
     return Fail(Code.BLOCKED, "blocked", tell_obstruction(facts, newest, name))
-
-
-def _xy(pose: Pose2) -> tuple[float, float]:
-    return pose.x_m, pose.y_m

@@ -12,14 +12,15 @@ import json
 from planner.brain.interface import OFFLINE
 from planner.language.catalogue import join, message, say
 from planner.language.questions import looks_round
+from planner.mission.account import name_place
 from planner.mission.events import Planned
+from planner.mission.outcomes import plain_outcome
 from planner.mission.plan_check import NO_STEPS, UNASKED, ask_for_motion, unwalkable
-from planner.mission.plan_walk import asked_of, close_open
 from planner.mission.queue import clear_hold, end_running, note_step, yield_robot
 from planner.mission.scene import first_deed, scene_of
 from planner.mission.state import Mission
-from planner.mission.step_execution import begin_step, carry_out, next_step
-from planner.mission.step_failure import give_up
+from planner.mission.step_execution import begin_step, carry_out
+from planner.mission.step_failure import give_up, to_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import BrainCause, Cause, GoalFact
 from planner.plan import (
@@ -34,9 +35,10 @@ from planner.plan import (
     StepPlan,
     StepRecord,
     StepState,
+    places_of,
     plan_record,
-    say_same,
 )
+from planner.plan.plan_walk import asked_of, close_open
 from planner.site.site_view import SiteView
 from planner.skills.ask import ask_again
 
@@ -103,8 +105,7 @@ def _same_again(mission: Mission, steps: tuple[StepRecord, ...]) -> Outcome | No
     tried = {*mission.tried, fingerprint(mission.steps[mission.step :])}
     if fingerprint(steps) not in tried:
         return None
-    said = message(Code.BAD_PLAN, why=SAME_AGAIN)
-    return Outcome(code=Code.BAD_PLAN, message=said)
+    return plain_outcome(Code.BAD_PLAN, why=SAME_AGAIN)
 
 
 def _no_steps(
@@ -122,8 +123,8 @@ def _no_steps(
     if isinstance(plan, Refuse):
         _end(turn, mission, BrainCause.REFUSES, Outcome(code=plan.code, message=plan.reason))
         return
-    why = message(Code.BAD_PLAN, why=NO_STEPS)
-    _end(turn, mission, GoalFact.STEP_FAILS, failure or Outcome(code=Code.BAD_PLAN, message=why))
+    why = failure or plain_outcome(Code.BAD_PLAN, why=NO_STEPS)
+    _end(turn, mission, GoalFact.STEP_FAILS, why)
 
 
 def _fail_with_advice(turn: Transaction, mission: Mission, why: Outcome, text: Bilingual) -> None:
@@ -158,7 +159,7 @@ def _adopt(
         tried=(*mission.tried, fingerprint(steps)),
         failure=None,
     )
-    mission = next_step(turn, mission)
+    mission = to_step(turn, mission, mission.step + 1)
     if mission.confirm or question is not None:
         yield_robot(turn, mission, BrainCause.NEEDS_YES, reason, question)
     else:
@@ -197,17 +198,11 @@ def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) 
     if mission.current_step is not None and mission.current_step.kind == "ask":
         deed = first_deed(facts, steps)
         why = None if deed is None else say("confirmation.would", deed=deed)
-        return None if why is None else _confirm(why)
-    if mission.failure is None:
+    elif mission.failure is None:
         return None
-    instead = _elsewhere(facts, mission.steps, steps) or _roaming(mission.steps, steps)
-    if instead is None:
-        return None
-    return _confirm(instead)
-
-
-def _confirm(why: Bilingual) -> Outcome:
-    return Outcome(code=Code.CONFIRM, message=message(Code.CONFIRM, why=why))
+    else:
+        why = _elsewhere(facts, mission.steps, steps) or _roaming(mission.steps, steps)
+    return None if why is None else plain_outcome(Code.CONFIRM, why=why)
 
 
 def _elsewhere(
@@ -218,7 +213,8 @@ def _elsewhere(
     fresh = [p for step in steps for p in _places(facts, step) if p not in known]
     if not fresh:
         return None
-    name = _name(facts, fresh[0])
+    back = fresh[0] == BACK
+    name = say("confirmation.start") if back else name_place(facts, fresh[0])
     return say("confirmation.elsewhere", name=name)
 
 
@@ -248,13 +244,4 @@ def _make_key(step: StepRecord) -> tuple[str, str, str | None, int | None, int |
 def _places(facts: SiteView, step: StepRecord) -> tuple[str, ...]:
     if step.kind == "return_home":
         return (facts.home,)
-    if step.kind == "come_back":
-        return (BACK,)
-    return (step.place,) if step.place else step.places
-
-
-def _name(facts: SiteView, place: str) -> Bilingual:
-    if place == BACK:
-        return say("confirmation.start")
-    target = facts.targets.get(place)
-    return target.name if target is not None else say_same(place)
+    return (BACK,) if step.kind == "come_back" else places_of(step)

@@ -1,10 +1,15 @@
-"""Doubt the way of the running leg where the route search remembers something in it.
+"""Doubt the way of the running leg where the route search remembers something in it, or who comes.
 
 Laws. A doubt never stops a leg: where no better way is found, the old one goes on, the bridge
 judges it, and recovery begins where the bridge holds the robot. A way round is searched for once a
 second at most, and taken a bounded number of times in a leg, so that nothing is circled. A doubt
 has to last, since what moves is known to move only after half a second. Pure: told times, knows no
 clock.
+
+Way is made for one as wide as a robot while there is room to turn. Who stands 0.06 m before another
+one turns at 0.3 rad/s and sees half of it; so two that meet in a door or a hallway decide two
+metres before. Both search the same: who has the shorter way aside goes, the other stands and climbs
+the ladder of recovery; so does one that can be passed already.
 """
 
 from __future__ import annotations
@@ -12,14 +17,20 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from planner.mission.activity import Driving, RouteDoubt, RoutePurpose
+from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RouteDoubt, RoutePurpose
+from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
 from planner.mission.legs import ask_route, new_leg
+from planner.mission.recovery import LADDER, Recovery, begin_ladder, note_obstruction
+from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import is_wide
 from planner.skills import Way
+from wire import Pose2
 
 if TYPE_CHECKING:
-    from planner.mission.events import ClosingIn, Oncoming, Routed, RouteDoubted
+    from planner.mission.events import Routed
     from planner.mission.state import Mission, MissionState
     from planner.mission.transaction import Transaction
+
 
 DOUBTED, KEPT, KEPT_SHORTER, BENT, RIGHT = (
     "route_doubted",
@@ -55,13 +66,23 @@ MAX_BENDS = 12
 """In one leg. After that the ladder of recovery alone finds other ways."""
 
 
-def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
-    """Note that the leg's way is closed ahead; have another searched, where that is due."""
+def on_way_news(turn: Transaction, event: RouteDoubted | Oncoming | ClosingIn) -> None:
+    """Take what is seen on the way of the leg that is streamed; of any other leg it is old."""
     mission, leg = turn.running, turn.driving
     if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
         return
-    if leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
+    if isinstance(event, ClosingIn):  # whatever the leg is driven for
+        turn.change(doubts=replace(leg.doubts, closed_in_s=turn.now_s))
+    elif leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
         return
+    elif isinstance(event, RouteDoubted):
+        _doubt(turn, leg, event)
+    elif not _make_way(turn, mission, leg, event):
+        _keep_right(turn, leg, event)
+
+
+def _doubt(turn: Transaction, leg: LegRoutes, event: RouteDoubted) -> None:
+    """Note that the leg's way is closed ahead; have another searched, where that is due."""
     doubt, now_s = leg.doubts.newest, turn.now_s
     lasts = doubt is not None and doubt.leg == event.leg and doubt.code not in _TAKEN
     if doubt is None or not lasts or not now_s - doubt.seen_s <= LASTS_S:
@@ -75,14 +96,9 @@ def on_doubted(turn: Transaction, event: RouteDoubted) -> None:
         ask_route(turn, RoutePurpose.DOUBT)
 
 
-def on_oncoming(turn: Transaction, event: Oncoming) -> None:
+def _keep_right(turn: Transaction, leg: LegRoutes, event: Oncoming) -> None:
     """Have a way on the right searched for somebody who comes, once for each meeting."""
-    mission, leg, now_s = turn.running, turn.driving, turn.now_s
-    if mission is None or leg is None or (mission.id, leg.leg) != (event.id, event.leg):
-        return
-    if leg.act.way is not Way.ROUTE or leg.manoeuvre is not None:
-        return
-    before = leg.doubts
+    before, now_s = leg.doubts, turn.now_s
     keeps_right = before.newest is not None and (
         (before.newest.leg, before.newest.code) == (leg.leg, RIGHT)
     )
@@ -95,13 +111,6 @@ def on_oncoming(turn: Transaction, event: Oncoming) -> None:
     turn.change(doubts=replace(doubts, newest=newest, right_searched_s=now_s))
     reach_m = MET_SHARE * event.far_m + PASSED_M
     ask_route(turn, RoutePurpose.KEEP_RIGHT, keep_right_m=reach_m)
-
-
-def on_closing_in(turn: Transaction, event: ClosingIn) -> None:
-    """Note that another robot closes in, whatever the leg is driven for."""
-    mission, leg = turn.running, turn.driving
-    if mission is not None and leg is not None and (mission.id, leg.leg) == (event.id, event.leg):
-        turn.change(doubts=replace(leg.doubts, closed_in_s=turn.now_s))
 
 
 def meeting_share(book: MissionState) -> float:
@@ -145,7 +154,7 @@ def standing_doubt(book: MissionState) -> RouteDoubt | None:
     return doubt if lasts else None
 
 
-def _may_search(turn: Transaction, leg: Driving) -> bool:
+def _may_search(turn: Transaction, leg: LegRoutes) -> bool:
     """Tell whether nothing else looks after the leg now."""
     status = turn.book.status
     return (
@@ -156,3 +165,30 @@ def _may_search(turn: Transaction, leg: Driving) -> bool:
         and status.base_in_map is not None
         and not (status.blocked or status.limits.by == SLOWED)
     )
+
+
+NEAR_M = 2.2
+"""Along the way: nearer than this it is decided."""
+AGAIN_S = 3.0
+"""A meeting is decided anew after so long: the other one may have chosen otherwise."""
+GIVE_WAY = next(rung for rung in LADDER if rung.recovery is Recovery.GIVE_WAY)
+
+
+def _make_way(turn: Transaction, mission: Mission, leg: Driving, event: Oncoming) -> bool:
+    """Have a way aside searched before who comes is there; say if that was decided."""
+    pose, busy = turn.book.pose, leg.ticket is not None or leg.route_when_standing
+    if busy or pose is None or not is_wide(event.radius_m):
+        return False
+    if not (event.far_m <= NEAR_M and turn.now_s - leg.doubts.made_way_s >= AGAIN_S):
+        return False
+    turn.change(doubts=replace(leg.doubts, made_way_s=turn.now_s))
+    side = Obstruction(event.seen_m, event.seen_m)
+    record = begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
+    record = note_obstruction(record, side, turn.now_unix_s, moves=True, radius_m=event.radius_m)
+    turn.put(mission, recovery=record.model_copy(update={"rung": LADDER.index(GIVE_WAY)}))
+    until_s = turn.now_s + GIVE_WAY.seconds
+    goal = Pose2(*event.seen_m, 0.0)
+    own = Manoeuvre(GIVE_WAY, goal, Way.ASIDE, until_s, leg.metres, is_early=True)
+    turn.change(manoeuvre=own)
+    ask_route(turn, RoutePurpose.DETOUR)
+    return True

@@ -2,29 +2,36 @@
 
 Owns when a scan is worth showing: fresh, new, and taken where odometry and a good localization say
 where the robot was. A scan placed wrongly would mark walls that are not there. Runs beside the
-missions and holds them up by nothing; while the search is busy, scans are passed over.
+missions and holds them up by nothing; while the search is busy, scans are passed over. Now and then
+the lidar is also asked what stands in the way of the running leg: that reads, and decides nothing.
 """
 
 from __future__ import annotations
 
 import logging
+import time
 from itertools import pairwise
-from math import cos, dist, sin
+from math import cos, dist, hypot, sin
 from typing import TYPE_CHECKING, Protocol
 
-from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
+from planner.mission.activity import Driving
+from planner.mission.events import ClosingIn, Oncoming, RouteDoubted, Surveyed
 from planner.navigation import RouteFailure, ScanObservation
+from planner.navigation.obstruction import ROUND_M, find_narrow, find_obstruction, is_seen_open
 from planner.navigation.oncoming import find_oncoming, is_closing_in
 from planner.perception.pose_buffer import Poses
 from wire import Pose2
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
+    from maps.grid import GridMap
     from planner.bridge_client import Link
-    from planner.mission.engine import WayAhead
-    from planner.navigation import ObstacleReport
+    from planner.mission.engine import Leg, WayAhead
+    from planner.mission.state import MissionState
+    from planner.navigation import Mover, ObstacleReport
     from wire import RobotDescription, Scan
+
 
 log = logging.getLogger(__name__)
 
@@ -165,3 +172,68 @@ def _first_metres(way: tuple[Point, ...]) -> tuple[Point, ...]:
 def _middle_s(scan: Scan) -> float:
     """Return the instant that stands for a whole sweep."""
     return scan.stamp_s + 0.5 * scan.time_increment_s * max(0, len(scan.ranges_m) - 1)
+
+
+EVERY_S = 0.5
+WALKED_S = 10.0
+BESIDE_M = 0.8
+"""What stands so near to where something moved is what moved."""
+MAX_WALKED = 200
+SIGHT_S = 0.5
+"""An older scan is no sight of now."""
+
+
+class Surveyor:
+    """Turn the newest scan into what a blocked mission wants to know."""
+
+    def __init__(self, link: Link, robot: RobotDescription, grid: GridMap) -> None:
+        self._link, self._robot, self._grid = link, robot, grid
+        self._next_s = float("-inf")
+        self._walked: tuple[tuple[float, float, float, float], ...] = ()
+        """Where something moved in the last seconds: x, y [m] in ``map``, when, and its radius."""
+
+    def note_movers(self, movers: Sequence[Mover], now_s: float) -> None:
+        """Remember for some seconds where something moves: who has stopped may walk on."""
+        kept = tuple(at for at in self._walked if now_s - at[2] <= WALKED_S)
+        self._walked = (*kept, *((m.x_m, m.y_m, now_s, m.radius_m) for m in movers))[-MAX_WALKED:]
+
+    def survey(self, book: MissionState, leg: Leg | None, now_s: float) -> Surveyed | None:
+        """Return what stands in the way of a leg that is blocked, and which shut ways are open.
+
+        None: nobody needs to know, or nothing new is known. Twice a second at most, since this runs
+        on the mission's loop (a scan of 360 beams takes about a millisecond).
+        """
+        mission, status = book.running_goal, book.status
+        if mission is None or status is None or not isinstance(book.activity, Driving):
+            return None
+        wanted = status.blocked or bool(mission.recovery.shut)
+        scan, here = self._link.scan, status.base_in_map
+        if not wanted or now_s < self._next_s or scan is None or here is None:
+            return None
+        if not scan.age_s <= SIGHT_S:
+            return None
+        self._next_s = now_s + EVERY_S
+        # Beams pass a gap that is too narrow: it is never seen open.
+        ways = (way.obstruction for way in mission.recovery.shut if not way.gap)
+        lidar = self._robot.lidar
+        opened = tuple(way for way in ways if is_seen_open(way, scan.value, lidar, here))
+        seen = None
+        if status.blocked and leg is not None and book.activity.manoeuvre is None:
+            path = [(point.x_m, point.y_m) for point in leg.points]
+            seen = find_obstruction(
+                *(self._link.obstacles(), path, (here.x_m, here.y_m)),
+                *(self._robot.base.radius_m, self._grid),
+            ) or find_narrow(path, (here.x_m, here.y_m), self._robot.base.radius_m, self._grid)
+        if seen is None and not opened:
+            return None
+        walked = [
+            radius_m
+            for x_m, y_m, at_s, radius_m in self._walked
+            if now_s - at_s <= WALKED_S
+            and seen is not None
+            and hypot(x_m - seen.middle[0], y_m - seen.middle[1]) <= BESIDE_M
+        ]
+        offset_s = float(time.localtime().tm_gmtoff)
+        is_round = seen is not None and seen.is_round
+        round_m = self._robot.base.radius_m + ROUND_M if is_round else 0.0
+        return Surveyed(seen, bool(walked), opened, offset_s, max(walked, default=round_m))

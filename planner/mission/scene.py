@@ -13,12 +13,11 @@ from planner.brain.interface import OFFLINE
 from planner.language.catalogue import CATALOGUE, say
 from planner.language.object_classes import KINDS
 from planner.language.object_names import name_object
-from planner.mission.account import BACK, name_point
+from planner.mission.account import BACK, name_place, name_point
 from planner.mission.activity import TIMED
 from planner.mission.outcomes import accepted_at, moves
-from planner.mission.plan_walk import catch
 from planner.mission.queue import skill_state_now
-from planner.mission.state import ORDER_SOURCE, Mission, Planning
+from planner.mission.state import ORDER_SOURCE, Mission
 from planner.mission.transaction import Transaction
 from planner.plan import (
     JUDGED,
@@ -32,6 +31,7 @@ from planner.plan import (
     places_of,
     say_same,
 )
+from planner.plan.plan_walk import catch
 from planner.skills import ImageAnswer, Scene, begin_state
 from planner.skills.search_bounds import GRANT_M
 from wire import Pose2
@@ -39,7 +39,6 @@ from wire import Pose2
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.state import Rules
     from planner.site.site_view import SiteView
 
 
@@ -53,11 +52,12 @@ def scene_of(
     activity = turn.book.activity if mission.id == turn.book.running else None
     began_s = activity.since_s if isinstance(activity, TIMED) else None
     since_s = began_s if began_s is not None else turn.now_s
-    step = mission.steps[mission.step]
+    step, brain = mission.steps[mission.step], mission.brain
+    reads = brain is not None and brain.name != OFFLINE  # the offline one has no way
     return Scene(
         step=step,
         facts=turn.book.facts,
-        pose=pose_now(turn),
+        pose=turn.book.pose,
         began=Pose2(*mission.began_at) if mission.began_at is not None else None,
         done=mission.done,
         part=mission.part,
@@ -71,10 +71,10 @@ def scene_of(
         spent_s=mission.step_s + max(0.0, turn.now_s - since_s),
         spent_m=mission.step_m + (activity.metres if activity is not None else 0.0),
         answer=answer,
-        unix_s=turn.now_s + turn.book.wall_offset_s,
+        unix_s=turn.now_unix_s,
         local_offset_s=turn.book.local_offset_s,
         upon=upon_yes(turn.book.facts, mission),
-        thinks=can_think(turn.book.rules, mission),
+        thinks=reads and mission.decides < turn.book.rules.decides,
         left_m=GRANT_M - (mission.metres - mission.step_m - mission.granted_at_m),
         afterwards=_ways_after(turn.book.facts, mission),
         offers=_may_offer(turn, mission),
@@ -138,11 +138,6 @@ def _ends(facts: SiteView, mission: Mission, step: StepRecord) -> tuple[tuple[fl
     return tuple((t.pose.x_m, t.pose.y_m) for t in targets) if moves(step) else ()
 
 
-def pose_now(turn: Transaction) -> Pose2 | None:
-    """Return where the robot is, as the newest status says."""
-    return turn.book.status.base_in_map if turn.book.status is not None else None
-
-
 DO_THAT = say("deed.do_that")
 _UNTIL = frozenset({"ask", "decide"})
 
@@ -181,8 +176,7 @@ def name_deed(facts: SiteView, step: StepRecord) -> Bilingual:
     if step.kind == "go_to_pose":
         return say("deed.drive_to", name=name_point(step))
     if place:
-        name = facts.targets[place].name if place in facts.targets else say_same(place)
-        return say("deed.drive_to", name=name)
+        return say("deed.drive_to", name=name_place(facts, place))
     code = f"deed.{step.kind}"
     return say(code if CATALOGUE.has(code) else "deed.go_on", what=name_sought(step))
 
@@ -191,9 +185,3 @@ def name_sought(step: StepRecord) -> Bilingual:
     """Name a step's object: a kind of thing in both languages, else as it was written."""
     words = step.object or ""
     return name_object(words) if words in KINDS else say_same(words)
-
-
-def can_think(rules: Rules, mission: Planning) -> bool:
-    """Tell whether the brain that planned a goal may read an answer: the offline one has no way."""
-    brain = mission.brain
-    return brain is not None and brain.name != OFFLINE and mission.decides < rules.decides

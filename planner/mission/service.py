@@ -34,11 +34,10 @@ from planner.mission.events import (
     Stopped,
     Submitted,
 )
-from planner.mission.given_points import StepGoals
+from planner.mission.given_points import RobotSurvey, StepGoals
 from planner.mission.journal_sync import Disk
 from planner.mission.loop import Loop
 from planner.mission.memory_lookup import MemoryLookup
-from planner.mission.place_survey import RobotSurvey
 from planner.mission.plan_request import Hearing, thinker
 from planner.mission.planner_commands import PlannerCommands
 from planner.mission.reception import (
@@ -50,12 +49,10 @@ from planner.mission.reception import (
     receive_answer,
 )
 from planner.mission.request_keys import Repeats
-from planner.mission.route_prefetch import RouteAhead
-from planner.mission.scan_sender import ScanObserver, ScanSender
+from planner.mission.scan_sender import ScanObserver, ScanSender, Surveyor
 from planner.mission.standing_goals import StandingGoals
 from planner.mission.state import MissionState, Rules
-from planner.mission.surveyor import Surveyor
-from planner.mission.tasks import RouteService
+from planner.mission.tasks import RouteAhead, RouteService
 from planner.perception.interfaces import Eyes
 from planner.plan import Goal, Language, Means
 from planner.site import KnownPlaces, Site

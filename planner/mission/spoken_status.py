@@ -1,20 +1,26 @@
-"""Tell in both languages the robot's position and activity, from the bridge's facts. Pure."""
+"""Tell in both languages the robot's position and activity, and what stands in its way. Pure."""
 
 from __future__ import annotations
 
-from math import hypot
+from typing import TYPE_CHECKING
 
+from planner.bridge_client.bridge_status import standing, worst_row
 from planner.language.catalogue import message, say, say_or_quote
 from planner.language.formatting import definite
 from planner.mission.account import DRIVEN, place_name
-from planner.mission.bridge_status import standing, worst_row
-from planner.mission.outcomes import spot_at
+from planner.mission.outcomes import find_place_near, spot_at
 from planner.mission.state import Mission, MissionState
 from planner.plan import Bilingual, Code, GoalState, say_same
+from planner.site.polygon import area_m2, border_distance_m, contains
 from planner.site.site_view import SiteView
 from wire import Pose2, Status
 
-NEAR_M = 1.0
+if TYPE_CHECKING:
+    from planner.mission.activity import RouteDoubt
+    from planner.mission.recovery import ShutWay
+    from planner.site.site_view import Target
+
+
 OLD_S = 1.0
 DRIVES_MPS = 0.02
 """Slower than this, a robot that does not stand is turning."""
@@ -35,7 +41,7 @@ def stop_told(book: MissionState) -> Bilingual:
 
 def go_on_told(book: MissionState, said: Bilingual, now_s: float) -> Bilingual:
     """Say beside a refusal or a question that the robot is still on another goal, where it is."""
-    running = book.missions.get(book.running or "")
+    running = book.running_goal
     if running is None:
         return said
     text = _short(running.text)
@@ -73,15 +79,8 @@ def tell_battery(book: MissionState, age_s: float) -> Bilingual:
 
 def _spot(facts: SiteView, pose: Pose2) -> Bilingual:
     room = spot_at(facts, pose).room
-    near = min(
-        (t for t in facts.targets.values() if not t.room),
-        key=lambda t: hypot(t.pose.x_m - pose.x_m, t.pose.y_m - pose.y_m),
-        default=None,
-    )
-    is_near = (
-        near is not None and hypot(near.pose.x_m - pose.x_m, near.pose.y_m - pose.y_m) <= NEAR_M
-    )
-    by = near.name if near is not None and is_near else None
+    near = find_place_near(facts, pose)
+    by = near.name if near is not None else None
     inside = facts.targets[room].name if room is not None else None
     if inside is not None and by is not None:
         return say("status.spot_both", room=inside, place=by)
@@ -125,7 +124,7 @@ def _motion(status: Status | None, age_s: float) -> Bilingual:
 
 
 def _task(book: MissionState, asking: str) -> Bilingual:
-    running = book.missions.get(book.running or "")
+    running = book.running_goal
     if running is not None:
         return _running(book, running)
     others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]
@@ -166,3 +165,55 @@ def _waiting(mission: Mission) -> Bilingual:
 
 def _short(text: str) -> str:
     return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 1]}…"
+
+
+DOOR_M = 0.45
+"""From the line between two rooms; outlines reach to the middle of walls, and what stands in a
+door sticks out of it."""
+
+
+def tell_obstruction(facts: SiteView, shut: ShutWay, place: Bilingual) -> Bilingual:
+    """Return the sentence of a way to a place that was given up before this obstruction."""
+    if shut.gap:
+        return say(
+            "obstruction.narrow",
+            place=definite(place),
+            width_m=shut.obstruction.width_m,
+            where=spot_of(facts, shut.obstruction.middle),
+        )
+    minutes = int((shut.since_unix_s + shut.local_offset_s) // 60)
+    return say(
+        "obstruction.blocked",
+        place=definite(place),
+        width_m=max(0.1, round(shut.obstruction.width_m, 1)),
+        where=spot_of(facts, shut.obstruction.middle),
+        time=f"{minutes // 60 % 24:02d}:{minutes % 60:02d}",
+    )
+
+
+def tell_occupied(place: Bilingual, near_m: float) -> Bilingual:
+    """Return the sentence of a goal on which something stands, with how near the robot came."""
+    return message(Code.GOAL_OCCUPIED, place=definite(place), metres=f"{near_m:.1f}")
+
+
+def tell_doubt(facts: SiteView, doubt: RouteDoubt) -> Bilingual:
+    """Return the sentence of a way that is doubted: why it bends, or goes on all the same."""
+    return say(f"route_doubt.{doubt.code}", where=spot_of(facts, doubt.at_m))
+
+
+def spot_of(facts: SiteView, point: tuple[float, float]) -> Bilingual:
+    """Name a point of ``map``: the door between two rooms, else the room."""
+    rooms = [t for t in facts.targets.values() if t.room and t.polygon is not None]
+    inside = [room for room in rooms if contains(room.polygon or (), *point)]
+    here = min(inside, key=lambda room: area_m2(room.polygon or ()), default=None)
+    if here is None:
+        return say("obstruction.at_point")
+    beside = [room for room in rooms if room is not here and _borders(room, point)]
+    if not beside:
+        return say("obstruction.in_room", room=here.name)
+    other = min(beside, key=lambda room: border_distance_m(room.polygon or (), *point))
+    return say("obstruction.at_door", room=here.name, other=other.name)
+
+
+def _borders(room: Target, point: tuple[float, float]) -> bool:
+    return border_distance_m(room.polygon or (), *point) <= DOOR_M

@@ -16,8 +16,8 @@ from planner.language.catalogue import join, message, say
 from planner.mission.effects import AskBrain
 from planner.mission.errors import QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
-from planner.mission.open_questions import has_room
-from planner.mission.outcomes import moves
+from planner.mission.open_questions import WAITS, count_open, has_room
+from planner.mission.outcomes import moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.state import ORDER_SOURCE, GoalKey, Mission, MissionState
 from planner.mission.transitions import FIRST
@@ -26,9 +26,7 @@ from planner.plan import (
     Bilingual,
     Clarify,
     Code,
-    GoalState,
     Language,
-    Outcome,
     Refuse,
     Step,
     StepPlan,
@@ -147,8 +145,7 @@ class StandingGoals:
         if not isinstance(plan, StepPlan):
             return planned
         if plan.does in STEPLESS:
-            why = say("plan.no_steps")
-            said = Outcome(code=Code.BAD_PLAN, message=message(Code.BAD_PLAN, why=why))
+            said = plain_outcome(Code.BAD_PLAN, why=say("plan.no_steps"))
             return Planned(planned.id, None, said, planned.brain)
         stand_in = Mission(
             id=goal_id, order=0, text=text, language=language, state=FIRST,
@@ -172,7 +169,7 @@ class StandingGoals:
         if (before := self.find(key)) is not None:
             return before
         if not has_room(self.book):
-            raise QueueFull(sum(not m.has_ended for m in self.book.missions.values()))
+            raise QueueFull(count_open(self.book))
         body = hashlib.sha256(f"{source}\n{text}".encode()).hexdigest()[:32]
         request = GoalKey(key, body, goal_id)
         self._repeats.remember(request)
@@ -189,8 +186,7 @@ class StandingGoals:
     def waits(self, goal_id: str) -> bool:
         """Tell whether a goal waits for a person's word."""
         mission = self.book.missions.get(goal_id)
-        asks = (GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION)
-        return mission is not None and mission.state in asks
+        return mission is not None and mission.state in WAITS
 
     def cancel(self, goal_id: str) -> None:
         """End a goal, where it has not ended."""

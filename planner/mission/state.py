@@ -35,7 +35,7 @@ from planner.site.site_view import SiteView
 from planner.skills.actions import UNSEEN
 from planner.skills.perception import NO_EYES, Eyesight
 from planner.skills.skill_state import SkillState
-from wire import Status
+from wire import Pose2, Status
 
 ORDER_SOURCE = "order:"
 """What the source of every goal of a standing order begins with."""
@@ -85,6 +85,11 @@ class GivenOrder(Frozen):
     def order_text(self) -> str:
         """Return the part of the text that is an order by itself."""
         return self.text if self.changed is None else self.changed.words or self.text
+
+    @property
+    def has_changed_steps(self) -> bool:
+        """Tell whether it is steps of the order before it, changed."""
+        return self.changed is not None and bool(self.changed.steps)
 
 
 class Consent(Frozen):
@@ -285,6 +290,16 @@ class MissionState:
     """Journal entries asked for."""
     safe: int = 0
     """Journal entries known to be on disk."""
+
+    @property
+    def pose(self) -> Pose2 | None:
+        """Return the robot in ``map``, as the newest status says."""
+        return self.status.base_in_map if self.status is not None else None
+
+    @property
+    def running_goal(self) -> Mission | None:
+        """Return the mission that has the robot, or None."""
+        return self.missions.get(self.running or "")
 
     @property
     def means(self) -> Means:

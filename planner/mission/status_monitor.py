@@ -6,14 +6,7 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
-from planner.mission.activity import (
-    AskingImage,
-    Driving,
-    Observing,
-    Retrying,
-    RoutePurpose,
-)
-from planner.mission.bridge_status import (
+from planner.bridge_client.bridge_status import (
     GATES,
     SILENT_SECTOR,
     amount_done,
@@ -24,8 +17,8 @@ from planner.mission.bridge_status import (
     shows,
     standing,
 )
-from planner.mission.exploration import reconsider_viewpoint
-from planner.mission.leg_routes import on_arrival
+from planner.mission.activity import AskingImage, Driving, Observing, Retrying, RoutePurpose
+from planner.mission.leg_routes import on_arrival, reconsider_viewpoint
 from planner.mission.legs import (
     abandon_route,
     ask_route,
@@ -43,12 +36,8 @@ from planner.mission.perception_events import (
     stand_while_blind,
 )
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
-from planner.mission.recovery_steps import (
-    leave_silence,
-    note_unblocked,
-    recover,
-    watch_manoeuvre,
-)
+from planner.mission.recovery_steps import leave_silence, recover, watch_manoeuvre
+from planner.mission.state import Mission
 from planner.mission.step_execution import begin_step, end_wait_if_due
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
@@ -133,7 +122,8 @@ def _interrupt(turn: Transaction, status: Status, silent_s: float) -> bool:
     if hold is not None:
         pause_running(turn, _fault_reason(status) if hold == "fault" else hold)
         return True
-    if not _drives_on(turn):
+    mission = turn.running
+    if mission is None or not any(map(moves, mission.steps_ahead)):
         return False
     if silent_s > SILENCE_S:
         pause_running(turn, fault("BRAIN_GONE"))
@@ -142,7 +132,7 @@ def _interrupt(turn: Transaction, status: Status, silent_s: float) -> bool:
     if cause is not None:
         pause_running(turn, cause)
         return True
-    return _end_spent(turn, status) or _held_too_long(turn, status)
+    return _end_spent(turn, mission, status) or _held_too_long(turn, status)
 
 
 def _fault_reason(status: Status) -> str:
@@ -153,16 +143,7 @@ def _fault_reason(status: Status) -> str:
     return fault(max(rows, key=lambda r: r.for_s).row if rows else "HELD")
 
 
-def _drives_on(turn: Transaction) -> bool:
-    """Tell whether the running mission drives now or will."""
-    mission = turn.running
-    return mission is not None and any(map(moves, mission.steps_ahead))
-
-
-def _end_spent(turn: Transaction, status: Status) -> bool:
-    mission = turn.running
-    if mission is None:
-        return False
+def _end_spent(turn: Transaction, mission: Mission, status: Status) -> bool:
     # Rows outlive the mission they were about; only a row seen on our own leg is ours.
     ours = status.leg is not None and status.leg.mission == mission.grant_name
     code = refused_grant(status, mission.grant_name) if status.grant is None else None
@@ -228,7 +209,8 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
     elif off_path and leg.leg is not None:
         abandon_route(turn)
     elif leg.route_when_standing:
-        _route_standing(turn, status)
+        if standing(status) and not shows(status, "POSE_JUMP"):
+            ask_route(turn)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
         mission = turn.running
         climbed = mission is not None and mission.recovery.ladders > 0
@@ -250,11 +232,6 @@ def _off_limits(turn: Transaction, leg: Driving) -> bool:
     else:
         return False
     return True
-
-
-def _route_standing(turn: Transaction, status: Status) -> None:
-    if standing(status) and not shows(status, "POSE_JUMP"):
-        ask_route(turn)
 
 
 def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
@@ -295,7 +272,7 @@ def _recover_or_go_on(turn: Transaction, status: Status) -> None:
     if status.blocked:
         recover(turn, leg, status)
     else:
-        note_unblocked(turn)
+        turn.change(occupied_since_s=None)  # what stood on its goal has left
         reconsider_viewpoint(turn)
 
 

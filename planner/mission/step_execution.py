@@ -5,6 +5,7 @@ When a leg is done, ``arrival`` tells. Nothing moves or speaks before its beginn
 
 from __future__ import annotations
 
+from planner.bridge_client.bridge_status import cannot_move
 from planner.language.catalogue import message, say
 from planner.language.plan_words import name_call
 from planner.mission.account import outcome_code
@@ -19,12 +20,9 @@ from planner.mission.activity import (
     Speaking,
     Waiting,
 )
-from planner.mission.bridge_status import cannot_move
 from planner.mission.effects import AskEyes, AskMemory, AskTool, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
-from planner.mission.outcomes import ended_outcome, moves, thoughts
-from planner.mission.plan_walk import RoundBudget, enter
-from planner.mission.plan_walk import go_on as go_on_walking
+from planner.mission.outcomes import ended_outcome, moves, plain_outcome
 from planner.mission.queue import (
     finish,
     next_up,
@@ -33,12 +31,14 @@ from planner.mission.queue import (
     settle_activity,
     yield_robot,
 )
-from planner.mission.scene import pose_now, scene_of
+from planner.mission.scene import scene_of
 from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
-from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, Outcome, StepState, parent_of
+from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, StepState, parent_of
+from planner.plan.plan_walk import RoundBudget, enter
+from planner.plan.plan_walk import go_on as go_on_walking
 from planner.skills import (
     AskImage,
     CallTool,
@@ -65,7 +65,7 @@ from planner.skills.skill_state import PatrolState
 def start_next(turn: Transaction) -> None:
     """Give the robot to the next in the queue, as long as it is free."""
     while (mission := next_up(turn)) is not None:
-        settle_amounts(turn, pose_now(turn))
+        settle_amounts(turn, turn.book.pose)
         mission = turn.book.missions[mission.id]
         turn.set(queue=tuple(i for i in turn.book.queue if i != mission.id), running=mission.id)
         mission = turn.move_to(mission, GoalFact.TURN, reason=None, outcome=None)
@@ -104,18 +104,17 @@ def begin_step(turn: Transaction) -> None:
         turn.set(activity=None)
         pause_running(turn, cause)
         return
-    mission = measure_from(turn, mission, pose_now(turn))
+    mission = measure_from(turn, mission, turn.book.pose)
     carry_out(turn, mission, act_of(scene_of(turn, mission)))
 
 
 def _enter(turn: Transaction, mission: Mission) -> Mission:
     """Go down to the first step to do, where the current one holds steps."""
     step = mission.current_step
-    if step is None or step.kind not in CONTROL or mission.plan is None:
+    if step is None or step.kind not in CONTROL:
         return mission
-    at = enter(mission.steps, mission.step, turn.now_s + turn.book.wall_offset_s)
-    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": at.row}))
-    return to_step(turn, mission, at.index)
+    at = enter(mission.steps, mission.step, turn.now_unix_s)
+    return to_step(turn, turn.put_steps(mission, at.row), at.index)
 
 
 def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
@@ -138,7 +137,10 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
         case Think():
             _decide(turn, mission, act)
         case Finish():
-            finish_step(turn, StepState.SUCCEEDED, **act.figures, **_result(act))
+            told = (
+                {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
+            )
+            finish_step(turn, StepState.SUCCEEDED, **act.figures, **told)
         case Skip():
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
         case Fail():
@@ -184,13 +186,7 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
         until_s=turn.now_s + act.seconds,
     )
     turn.set(tickets=ticket, activity=asking)
-    ask = AskEyes(
-        *(mission.id, ticket, mission.language, act.words, act.point, act.x, act.y),
-        views=act.views,
-        now=act.now,
-        seek=act.seek,
-    )
-    turn.emit(ask)
+    turn.emit(AskEyes(mission.id, ticket, mission.language, act))
 
 
 def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp | CallTool) -> None:
@@ -211,11 +207,6 @@ def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp | CallTool) -
     turn.set(tickets=ticket, activity=looking)
     asked = (step.object, step.place, step.span, step.deeds, step.role in JUDGED)
     turn.emit(AskMemory(mission.id, ticket, *asked))
-
-
-def _result(act: Finish) -> dict[str, object]:
-    """Return a looking step's result, for its record."""
-    return {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
 
 
 def go_on(
@@ -263,7 +254,9 @@ def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
         think(turn, mission)
         return
     if mission.decides >= turn.book.rules.decides:
-        said = message(Code.OUT_OF_BUDGET, budget=thoughts(turn.book.rules.decides))
+        said = message(
+            Code.OUT_OF_BUDGET, budget=say("account.thoughts", count=turn.book.rules.decides)
+        )
         fail_step(turn, Fail(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
@@ -280,25 +273,15 @@ def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
         to_step(turn, mission, len(mission.steps))
         begin_step(turn)
         return
-    spent = RoundBudget(turn.now_s + turn.book.wall_offset_s, mission.metres)
-    at = go_on_walking(mission.steps, mission.step, spent)
+    at = go_on_walking(mission.steps, mission.step, RoundBudget(turn.now_unix_s, mission.metres))
     if at.unmet:
-        said = message(Code.UNMET, rounds=_rounds_of(mission))
+        parent = parent_of(mission.steps, mission.step)
+        rounds = mission.steps[parent].round if parent is not None else 1
+        said = message(Code.UNMET, rounds=rounds)
         fail_step(turn, Fail(Code.UNMET, Code.UNMET.value, said))
         return
-    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": at.row}))
-    to_step(turn, mission, at.index)
+    to_step(turn, turn.put_steps(mission, at.row), at.index)
     begin_step(turn)
-
-
-def _rounds_of(mission: Mission) -> int:
-    parent = parent_of(mission.steps, mission.step)
-    return mission.steps[parent].round if parent is not None else 1
-
-
-def next_step(turn: Transaction, mission: Mission) -> Mission:
-    """Point at the next step."""
-    return to_step(turn, mission, mission.step + 1)
 
 
 def speak_if_safe(turn: Transaction) -> None:
@@ -316,7 +299,7 @@ def speak_if_safe(turn: Transaction) -> None:
         if activity.aloud:
             turn.emit(SayAloud(mission.id, activity.question.of(mission.language)))
         turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
-        said = Outcome(code=Code.ASKED, message=message(Code.ASKED, text=activity.question))
+        said = plain_outcome(Code.ASKED, text=activity.question)
         yield_robot(turn, mission, GoalFact.STEP_ASKS, "asked", said)
 
 
@@ -341,9 +324,5 @@ def _finish_mission(turn: Transaction, mission: Mission) -> None:
     if mission.failure is not None:
         end_failed(turn, mission, mission.failure.message)
         return
-    now_unix_s = turn.now_s + turn.book.wall_offset_s
-    code = outcome_code(mission)
-    outcome = ended_outcome(
-        turn.book.facts, mission, turn.book.status, now_unix_s, code=code, said=None
-    )
+    outcome = ended_outcome(turn, mission, outcome_code(mission), None)
     finish(turn, mission, GoalFact.STEPS_OVER, outcome)

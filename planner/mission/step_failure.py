@@ -7,39 +7,30 @@ look and to come back comes back with nothing, too: that way alone is still driv
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from planner.language.catalogue import say
 from planner.mission.account import BACK
 from planner.mission.activity import Retrying, Thinking
-from planner.mission.conversation import situation_of
-from planner.mission.declined_goals import decline
-from planner.mission.effects import AskBrain
-from planner.mission.observations import exchanges_of, list_observations
-from planner.mission.outcomes import failure, spot_at
-from planner.mission.plan_walk import catch
-from planner.mission.queue import end_running, note_step, settle_activity
+from planner.mission.conversation import list_observations, question_of
+from planner.mission.outcomes import failure
+from planner.mission.queue import decline, end_running, note_step, settle_activity
 from planner.mission.recovery import FRESH
 from planner.mission.state import Mission
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Bilingual, Code, Outcome, StepState, parent_of, parents_of
+from planner.plan.plan_walk import catch
 from planner.skills import Fail, SkillStateBase
 
-MENDABLE = frozenset(
-    {
-        Code.NO_ROUTE,
-        Code.BLOCKED,
-        Code.GOAL_OCCUPIED,
-        Code.NO_ROOM,
-        Code.NOT_REACHED,
-        Code.UNKNOWN_PLACE,
-    }
-    | {Code.NOT_FOUND, Code.LOST_PERSON}
-)
+SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED, Code.GOAL_OCCUPIED})
+MENDABLE = SHUT | {
+    *(Code.NO_ROOM, Code.NOT_REACHED, Code.UNKNOWN_PLACE, Code.NOT_FOUND, Code.LOST_PERSON)
+}
 """Another plan may do better. A fault, a spent budget or a missing skill is told at once."""
 CAUGHT = MENDABLE | {Code.UNSURE, Code.UNMET, Code.BLIND}
 """What a plan's own ``on_failure`` is for. A fault, a spent budget or a missing part ends the goal
 whatever the plan says."""
-SHUT = frozenset({Code.NO_ROUTE, Code.BLOCKED, Code.GOAL_OCCUPIED})
 IN_VAIN = frozenset({Code.NOT_FOUND, Code.LOST_PERSON, Code.UNSURE, Code.UNMET})
 """Nothing was wrong but that it was not there: the way back that the person ordered holds."""
 AGAIN_S = 1.0
@@ -64,7 +55,10 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
         return
     said = cannot.said or failure(turn.book.facts, mission, mission.current_step, cannot.code, "")
     before = mission.failure if mission.returning else None
-    why = Outcome(code=cannot.code, message=said) if before is None else _append(before, said)
+    why = Outcome(code=cannot.code, message=said)
+    if before is not None:  # it is told behind the failure on the way there
+        both = say("step_failure.both", told=before.message, said=said)
+        why = Outcome(code=before.code, message=both)
     mission = note_step(
         turn, mission, state=StepState.FAILED, reason=cannot.reason, said=said, **cannot.figures
     )
@@ -81,11 +75,10 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
 
 def _take_other_way(turn: Transaction, mission: Mission) -> bool:
     """Go on with what the plan holds for this failure; say if it holds anything."""
-    at = catch(mission.steps, mission.step, turn.now_s + turn.book.wall_offset_s)
-    if at is None or mission.plan is None:
+    at = catch(mission.steps, mission.step, turn.now_unix_s)
+    if at is None:
         return False
-    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": at.row}))
-    to_step(turn, mission, at.index)
+    to_step(turn, turn.put_steps(mission, at.row), at.index)
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
     return True
 
@@ -125,15 +118,14 @@ def _go_back(turn: Transaction, mission: Mission) -> bool:
     pending = (i for i in left if mission.steps[i].state is StepState.PENDING)
     sure = (i for i in pending if _is_sure(mission, i))
     back = next((i for i in sure if mission.steps[i].kind in BACK), None)
-    if back is None or mission.plan is None or mission.failure is None:
+    if back is None or mission.failure is None:
         return False
     skipped = {"state": StepState.SKIPPED, "reason": mission.failure.code.value}
     steps = tuple(
         step.model_copy(update=skipped) if i in left and i != back else step
         for i, step in enumerate(mission.steps)
     )
-    mission = turn.put(mission, plan=mission.plan.model_copy(update={"steps": steps}))
-    to_step(turn, mission, back)
+    to_step(turn, turn.put_steps(mission, steps), back)
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=turn.now_s))
     return True
 
@@ -146,13 +138,6 @@ def _is_sure(mission: Mission, index: int) -> bool:
         return True
     branch = {row[i].role for i in now if parent_of(row, i) == parent}
     return row[index].role in branch
-
-
-def _append(before: Outcome, said: Bilingual) -> Outcome:
-    """Return a failure with the one on the way back told after it."""
-    told = before.message
-    both = say("step_failure.both", told=told, said=said)
-    return Outcome(code=before.code, message=both)
 
 
 def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:
@@ -172,21 +157,7 @@ def to_step(turn: Transaction, mission: Mission, index: int) -> Mission:
 
 def think(turn: Transaction, mission: Mission) -> None:
     """Have the brain think again, standing, with all that came of the goal so far."""
-    facts, status = turn.book.facts, turn.book.status
-    room = spot_at(facts, status.base_in_map if status is not None else None).room
     turn.set(activity=Thinking(record=turn.next_entry))
-    turn.emit(
-        AskBrain(
-            mission.id,
-            mission.words,
-            mission.language,
-            room,
-            list_observations(facts, mission),
-            mission.replans,
-            order=mission.text,
-            exchanges=exchanges_of(mission),
-            departed=mission.departed_at is not None,
-            situation=situation_of(turn.book, mission, turn.now_s),
-            changed=None if mission.replies else mission.changed,
-        )
-    )
+    ask = question_of(turn, mission)
+    observed = list_observations(turn.book.facts, mission)
+    turn.emit(replace(ask, observed=observed, replan=mission.replans))

@@ -1,13 +1,23 @@
-"""Ask brain and router in tasks, and bring their answers back as events. One task per question."""
+"""Ask brain and router in tasks, and bring their answers back as events. One task per question.
+
+The way of a plan's first step is searched while the rest of the plan is still being written. What
+was searched ahead is used only where the very same way is asked for later, by a plan that was
+validated whole; nothing moves by it. Nothing is searched ahead while the robot drives or has other
+goals: from where it would start is then unknown.
+"""
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
+import time
 from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
-from typing import Any, Protocol
+from math import hypot
+from typing import Any, Protocol, TypeVar
 
+from planner.bridge_client.bridge_status import standing
 from planner.language.catalogue import message, say
 from planner.mission.effects import (
     AskBrain,
@@ -18,14 +28,17 @@ from planner.mission.effects import (
     DropBrain,
     KeepPicture,
     SavePicture,
+    TaskEffect,
 )
 from planner.mission.events import Planned, Recalled, Told, ToolAnswered
 from planner.mission.perception_requests import EyeDoor
+from planner.mission.state import MissionState
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.navigation.obstruction import points_of
-from planner.plan import Bilingual, Code, Outcome
+from planner.plan import Bilingual, Code, GoTo, Outcome, ReturnHome, Step
 from planner.skills import Way
 from planner.skills.perception import ImageAnswer
+from wire import Pose2
 
 log = logging.getLogger(__name__)
 
@@ -66,13 +79,11 @@ class RouteService(Protocol):
 class Answers:
     """Name where answers go, and the lidar's points when a way round is wanted."""
 
-    planned: Callable[[Planned], None]
+    event: Callable[[Planned | Told | Recalled | ToolAnswered], None]
     routed: Callable[[AskRoute, RouteResult | None, str | None], None]
     obstacles: Callable[[], tuple[tuple[float, float], ...]]
-    told: Callable[[Told], None]
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
-    recalled: Callable[[Recalled | ToolAnswered], None] = lambda _: None
     call: ToolCaller = call_nothing
 
 
@@ -95,17 +106,7 @@ class MissionTasks:
         self._inquiries: dict[int, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def help(
-        self,
-        ask: AskBrain
-        | AskRoute
-        | AskEyes
-        | AskMemory
-        | AskTool
-        | KeepPicture
-        | SavePicture
-        | DropBrain,
-    ) -> None:
+    def help(self, ask: TaskEffect) -> None:
         """Start to think, to search or to ask about pictures; keep one; stop thinking."""
         match ask:
             case AskBrain():
@@ -162,48 +163,28 @@ class MissionTasks:
         await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _understand(self, ask: AskBrain) -> None:
-        try:
-            answer = await self._think(ask)
-        except Exception:
-            # Whatever a brain may be, its fault must not end the planner: the goal fails, typed.
-            log.exception("the brain failed on goal %s", ask.id)
-            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
-            answer = Planned(ask.id, None, said)
+        said = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
+        answer = await _answer_of(self._think, ask, "the brain", Planned(ask.id, None, said))
         if self._thoughts.get(ask.id) is asyncio.current_task():
             del self._thoughts[ask.id]
-            self._answers.planned(answer)
+            self._answers.event(answer)
 
     async def _inquire(self, ask: AskEyes) -> None:
-        try:
-            told = await self._eyes.ask(ask)
-        except Exception:
-            # As with a brain: whatever sees, its fault must not end the planner.
-            log.exception("the eyes failed on goal %s", ask.id)
-            told = Told(ask.id, ask.ticket, ImageAnswer(failure="unavailable"))
+        unseen = Told(ask.id, ask.ticket, ImageAnswer(failure="unavailable"))
+        told = await _answer_of(self._eyes.ask, ask, "the eyes", unseen)
         if self._inquiries.get(ask.ticket) is asyncio.current_task():
             del self._inquiries[ask.ticket]
-            self._answers.told(told)
+            self._answers.event(told)
 
     async def _look_up(self, ask: AskMemory) -> None:
-        try:
-            answer = await self._recall(ask)
-        except Exception:
-            # As with a brain: its fault must not end the planner.
-            log.exception("memory failed on goal %s", ask.id)
-            code = Code.MEMORY_UNAVAILABLE
-            answer = Recalled(ask.id, ask.ticket, code, message(code))
-        self._answers.recalled(answer)
+        code = Code.MEMORY_UNAVAILABLE
+        unknown = Recalled(ask.id, ask.ticket, code, message(code))
+        self._answers.event(await _answer_of(self._recall, ask, "memory", unknown))
 
     async def _ask_tool(self, ask: AskTool) -> None:
-        try:
-            answer = await self._answers.call(ask)
-        except Exception:
-            # As with a brain: its fault must not end the planner.
-            log.exception("a tool failed on goal %s", ask.id)
-            why = say("tool_problem.bad_reply")
-            said = message(Code.TOOL_FAILED, call=ask.tool, why=why)
-            answer = ToolAnswered(ask.id, ask.ticket, said, problem="bad_reply")
-        self._answers.recalled(answer)
+        said = message(Code.TOOL_FAILED, call=ask.tool, why=say("tool_problem.bad_reply"))
+        failed = ToolAnswered(ask.id, ask.ticket, said, problem="bad_reply")
+        self._answers.event(await _answer_of(self._answers.call, ask, "a tool", failed))
 
     async def _search(self, ask: AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
@@ -227,3 +208,123 @@ class MissionTasks:
             self._answers.routed(ask, None, failure.code)
             return
         self._answers.routed(ask, result, None)
+
+
+Asked = TypeVar("Asked", AskBrain, AskEyes, AskMemory, AskTool)
+Answer = TypeVar("Answer", Planned, Told, Recalled, ToolAnswered)
+
+
+async def _answer_of(
+    answer: Callable[[Asked], Awaitable[Answer]], ask: Asked, who: str, otherwise: Answer
+) -> Answer:
+    """Return an answer. Whoever is asked, its fault ends no planner: the goal is told so, typed."""
+    try:
+        return await answer(ask)
+    except Exception:
+        log.exception("%s failed on goal %s", who, ask.id)
+        return otherwise
+
+
+SAME_M = 0.1
+"""How far the pose may have wandered, standing, since the search began; a horizon may begin 0.3 m
+from the robot."""
+KEPT_S = 30.0
+
+
+class StateHolder(Protocol):
+    """Hold where everything stands, as the mission loop does."""
+
+    @property
+    def book(self) -> MissionState: ...
+
+
+@dataclass(slots=True)
+class _Search:
+    request: RouteRequest
+    task: asyncio.Task[RouteResult]
+    began_s: float
+
+
+class RouteAhead:
+    """Be a router that may have the answer already."""
+
+    def __init__(
+        self,
+        router: RouteService,
+        missions: StateHolder,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._router, self._missions, self._clock = router, missions, clock
+        self._search: _Search | None = None
+        self.used = 0
+        """Routes that were there before they were asked for."""
+
+    def expect(self, steps: tuple[Step, ...]) -> None:
+        """Begin to search the way of the first step, if it names a place and the robot is free."""
+        request = self._request(steps[0]) if steps else None
+        now = self._search
+        if request is None or (now is not None and _is_same(now.request, request)):
+            return
+        self._drop()
+        task = asyncio.get_running_loop().create_task(self._router.route(request))
+        task.add_done_callback(_looked_at)
+        self._search = _Search(request, task, self._clock())
+
+    async def route(self, request: RouteRequest) -> RouteResult:
+        """Find the way, or have it found already. Raises what the router raises."""
+        ahead, self._search = self._search, None
+        if ahead is None:
+            return await self._router.route(request)
+        fresh = self._clock() - ahead.began_s <= KEPT_S
+        if fresh and _is_same(ahead.request, request):
+            with contextlib.suppress(RouteFailure):
+                result = await ahead.task
+                self.used += 1
+                return result
+        ahead.task.cancel()
+        return await self._router.route(request)
+
+    async def close(self) -> None:
+        """Let go of the search under way."""
+        search = self._search
+        self._drop()
+        if search is not None:
+            await asyncio.gather(search.task, return_exceptions=True)
+
+    def _request(self, step: Step) -> RouteRequest | None:
+        book = self._missions.book
+        status = book.status
+        if status is None or status.base_in_map is None or not standing(status):
+            return None
+        if book.running is not None or book.queue:
+            return None
+        match step:
+            case GoTo(place=place):
+                target = book.facts.targets.get(place)
+            case ReturnHome():
+                target = book.facts.targets.get(book.facts.home)
+            case _:
+                return None
+        return None if target is None else RouteRequest(status.base_in_map, target.pose)
+
+    def _drop(self) -> None:
+        if self._search is not None:
+            self._search.task.cancel()
+            self._search = None
+
+
+def _is_same(ahead: RouteRequest, asked: RouteRequest) -> bool:
+    plain = not (
+        asked.obstacles or asked.straight or asked.aside or asked.strict or asked.keep_right_m
+    )
+    return plain and ahead.goal == asked.goal and _near(ahead.start, asked.start)
+
+
+def _near(one: Pose2, other: Pose2) -> bool:
+    return hypot(one.x_m - other.x_m, one.y_m - other.y_m) <= SAME_M
+
+
+def _looked_at(task: asyncio.Task[RouteResult]) -> None:
+    """Take note of a failure that nobody may ask for: it is no one's any more."""
+    if not task.cancelled():
+        task.exception()

@@ -12,6 +12,7 @@ from planner.mission.activity import Driving
 from planner.mission.effects import Effect, GoalChange, Journal
 from planner.mission.state import MAX_ENDED, Mission, MissionState
 from planner.mission.transitions import Cause, ForbiddenTransition, next_state
+from planner.plan import StepRecord
 
 
 class Transaction:
@@ -38,7 +39,12 @@ class Transaction:
     @property
     def running(self) -> Mission | None:
         """Return the mission that has the robot, or None."""
-        return self.mission(self.book.running)
+        return self.book.running_goal
+
+    @property
+    def now_unix_s(self) -> float:
+        """Return the time by the wall clock."""
+        return self.now_s + self.book.wall_offset_s
 
     def put(self, mission: Mission, **changes: Any) -> Mission:
         """Keep a mission with changes, stamped. Its state is changed by ``move_to`` alone.
@@ -50,6 +56,12 @@ class Transaction:
             raise ForbiddenTransition("the state is changed by move_to, with its cause")
         return self._keep(mission, changes)
 
+    def put_steps(self, mission: Mission, steps: tuple[StepRecord, ...]) -> Mission:
+        """Keep a mission with other records of its plan's steps; without a plan, as it is."""
+        if mission.plan is None:
+            return mission
+        return self.put(mission, plan=mission.plan.model_copy(update={"steps": steps}))
+
     def move_to(self, mission: Mission, cause: Cause, **changes: Any) -> Mission:
         """Bring a mission into the state that the table gives for a cause, with changes.
 
@@ -59,9 +71,8 @@ class Transaction:
         return self._keep(mission, {**changes, "state": next_state(mission.state, cause)})
 
     def _keep(self, mission: Mission, changes: dict[str, Any]) -> Mission:
-        stamp = self.now_s + self.book.wall_offset_s
         # Wall clocks step back; a record's times never do.
-        changes["updated_unix_s"] = max(stamp, mission.updated_unix_s)
+        changes["updated_unix_s"] = max(self.now_unix_s, mission.updated_unix_s)
         changed = mission.model_copy(update=changes)
         self.set(missions={**self.book.missions, mission.id: changed})
         return changed

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import hypot
 from typing import TYPE_CHECKING
 
-from planner.mission.bridge_status import cannot_move, standing
+from planner.bridge_client.bridge_status import cannot_move, standing
 from planner.mission.standing_goals import is_of_order
 from planner.mission.state import ORDER_SOURCE
 from planner.orders.scheduler import BRIDGE_SILENT

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
+from planner.api.history import page_of
 from planner.mission.effects import Journal
 from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import MissionJournal
-from planner.mission.shared_mission import page_of
 from planner.plan import GoalState, Language
 from pons import history
 from pons.grammar import parser

@@ -16,7 +16,7 @@ import pytest
 from playwright.sync_api import Browser, CDPSession, FloatRect, Page
 
 from planner.memory import MemoryStore, Recollection
-from planner.mission.place_survey import RobotSurvey
+from planner.mission.given_points import RobotSurvey
 from planner.site import KnownPlaces, TaughtPlaces
 from planner.site.marks import marks_path
 from planner.state_database import StateDatabase

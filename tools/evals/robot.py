@@ -20,7 +20,7 @@ from planner.language.sentence import parse
 from planner.memory import MemoryStore, Recollection, SightingRecorder
 from planner.mission.errors import MissionError
 from planner.mission.events import Planned
-from planner.mission.open_questions import asks
+from planner.mission.open_questions import AwaitedWord, wait_of
 from planner.mission.reception import hears_stop
 from planner.plan import (
     AnswerPlan,
@@ -307,7 +307,7 @@ class ConversationRobot:
 
 
 def _is_under_way(mission: Mission) -> bool:
-    return mission.state in (*_GOES, GoalState.PAUSED) or asks(mission)
+    return mission.state in (*_GOES, GoalState.PAUSED) or wait_of(mission) is AwaitedWord.STEP
 
 
 def _role(before: MissionState, book: MissionState, taken: Mission) -> Reaction:

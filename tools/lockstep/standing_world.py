@@ -15,7 +15,7 @@ from lockstep.latencies import TICK_S, Pace, ticks
 from lockstep.planner_process import Notebook, PlannerProcess
 from lockstep.scene import folder_of, scene
 from lockstep.world import STAND_IN_ROBOT, START_S, TooLong
-from planner.mission.departure import way_back_of
+from planner.mission.follow_up import way_back_of
 from planner.plan import GoalState
 from planner.site.site_view import facts_of
 from tools.lockstep.eyes import PerceptionProcess

@@ -17,8 +17,8 @@ from pydantic import ValidationError
 
 from planner.brain.interface import Exchange
 from planner.language.stop import is_stop
+from planner.mission.conversation import exchanges_of
 from planner.mission.journal_records import read_mission
-from planner.mission.observations import exchanges_of
 from planner.mission.state import Mission
 from planner.plan import Language, PlanRecord
 

@@ -11,7 +11,7 @@ from starlette.testclient import TestClient
 from planner.api import Access
 from planner.api.live_state import Feed
 from planner.bridge_client import Aged
-from planner.mission.place_survey import RobotSurvey
+from planner.mission.given_points import RobotSurvey
 from planner.site import KnownPlaces, TaughtPlaces
 from tests.planner.api.fakes import FakeServices
 from tests.planner.api.served import BASE, client_of

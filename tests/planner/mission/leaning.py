@@ -8,10 +8,10 @@ from typing import Any, TypeVar
 
 from planner.brain import OfflineBrain, ThinkRequest
 from planner.language.catalogue import say
+from planner.language.object_names import known_words
 from planner.language.sentence import parse
 from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import lean_of
-from planner.mission.plan_request import things_of
 from planner.mission.reception import Reception, receive
 from planner.mission.reducer import advance
 from planner.mission.state import Mission, MissionState
@@ -95,7 +95,7 @@ def plan_of(text: str, changed: ChangedOrder | None = None) -> Plan:
         vocabulary=vocabulary_of(SITE),
         runnable=_MEANS.plannable,
         blind=_MEANS.blind,
-        things=things_of(_CLASSES),
+        things=known_words(_CLASSES),
         changed=changed,
     )
     return asyncio.run(OfflineBrain().think(request)).plan

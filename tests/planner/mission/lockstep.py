@@ -18,7 +18,7 @@ from planner.mission.effects import (
     SayAloud,
 )
 from planner.mission.engine import Engine, Output
-from planner.mission.events import Event, Planned, Restarted, Submitted
+from planner.mission.events import Event, Journalled, Planned, Restarted, Submitted
 from planner.mission.state import Mission, MissionState
 from planner.navigation import RoutePoint
 from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
@@ -104,7 +104,7 @@ class Together:
             case Journal():
                 self.disk_entries.append(effect)
                 if self.disk:
-                    self.carry(self.engine.take_journalled(effect, self.now_s))
+                    self.carry(self.engine.event(Journalled(effect.entry), self.now_s))
             case AskBrain():
                 plan = self.plans.get(effect.id)
                 if plan is not None:
@@ -139,7 +139,7 @@ class Together:
     def sync(self) -> None:
         """Let the disk catch up."""
         for entry in tuple(self.disk_entries):
-            self.carry(self.engine.take_journalled(entry, self.now_s))
+            self.carry(self.engine.event(Journalled(entry.entry), self.now_s))
 
     def run(self, seconds: float = PERIOD_S, every_s: float = PERIOD_S) -> None:
         """Let simulated time pass, one status in each ``every_s``."""

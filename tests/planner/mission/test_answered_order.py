@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from planner.mission.answered_order import complete_order
+from planner.mission.open_questions import complete_order
 from planner.mission.state import Mission
 from planner.plan import BrainTag, Clarify
 from tests.planner.mission.leaning import FACTS, newest, order_asked_about, plan_of

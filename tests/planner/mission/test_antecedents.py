@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import pytest
 
 from planner.language.sentence import parse
-from planner.mission.departure import LEANS_S
 from planner.mission.events import Planned, Submitted
+from planner.mission.follow_up import LEANS_S
 from planner.mission.reducer import advance
 from planner.mission.state import MissionState
 from planner.plan import Find, GoalState, GoTo, Look, Patrol, Recall, StepPlan
@@ -22,9 +21,6 @@ from tests.planner.mission.leaning import (
     order_done,
     order_under_way,
 )
-
-if TYPE_CHECKING:
-    pass
 
 THINGS, PLACES = ("cup", "the book", "my red ball"), (("kitchen", "厨房"), ("study", "书房"))
 EN = (

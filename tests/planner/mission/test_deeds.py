@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.mission.deeds import bounds_of
-from planner.mission.recall_text import tell_time
+from planner.mission.recall_text import bounds_of, tell_time
 from planner.plan import Span
 
 HERE = timezone(timedelta(hours=1))

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from planner.brain.offline_brain import OfflineBrain
-from planner.mission.departure import AWAY_M, LEANS_S, departure_of
 from planner.mission.effects import AskBrain
 from planner.mission.events import Cancel, Submitted
+from planner.mission.follow_up import AWAY_M, LEANS_S, departure_of
 from planner.mission.plan_request import thinker
 from planner.mission.reducer import advance
 from planner.mission.state import ORDER_SOURCE

@@ -13,8 +13,8 @@ from planner.language import object_names
 from planner.language.changes import reader
 from planner.language.changes.reader import read_changes
 from planner.language.motion_guard import mentioned_names
-from planner.mission import detector_words
-from planner.mission.detector_words import Wording, warm_up
+from planner.mission import perception_requests
+from planner.mission.perception_requests import Wording, warm_up
 from planner.site import Site
 from planner.site.known_places import KnownPlaces
 from planner.skills import viewpoints
@@ -40,7 +40,7 @@ async def test_words_are_prepared_once_beside_the_loop_and_then_told(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     threads = Threads()
-    monkeypatch.setattr(detector_words, "prepare", threads)
+    monkeypatch.setattr(perception_requests, "prepare", threads)
     beside: list[Coroutine[Any, Any, None]] = []
     told: list[int] = []
     words = Wording(("cup",), beside.append, lambda: told.append(len(threads.seen)))
@@ -72,7 +72,7 @@ async def test_a_detector_of_ones_own_is_read_without_a_pattern_made_on_the_loop
     start: Starter, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     threads = Threads()
-    monkeypatch.setattr(detector_words, "prepare", threads)
+    monkeypatch.setattr(perception_requests, "prepare", threads)
     bridge = LiveBridge()
     eyes = Gnomes(bridge)
     async with start(bridge=bridge, eyes=eyes) as world:

@@ -9,7 +9,7 @@ import pytest
 
 from planner.mission.effects import AskRoute
 from planner.mission.events import Pause, Resume
-from planner.mission.exploration import AGAIN_S
+from planner.mission.leg_routes import AGAIN_S
 from planner.navigation import FloorReport
 from planner.plan import Code, Explore, ReturnHome, StepPlan, StepState
 from planner.skills import Way

@@ -9,9 +9,9 @@ import pytest
 
 from planner.brain.offline_brain import TAG
 from planner.language.sentence import parse
-from planner.mission.departure import LEANS_S
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Submitted
+from planner.mission.follow_up import LEANS_S
 from planner.mission.reducer import advance
 from planner.mission.state import MissionState
 from planner.plan import (

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner.mission.departure import LEANS_S
+from planner.mission.follow_up import LEANS_S
 from planner.mission.state import MissionState
 from planner.plan import (
     ChangedOrder,

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from planner.mission.bridge_status import at_rest
-from planner.mission.gc_control import DRIVING_PERIOD_S, STANDING_PERIOD_S, Collector
+from planner.bridge_client.bridge_status import at_rest
+from planner.mission.clocks import DRIVING_PERIOD_S, STANDING_PERIOD_S, Collector
 from tests.planner.mission.fakes import status
 from wire import Mode, Twist2
 

@@ -7,7 +7,6 @@ from typing import Any
 import pytest
 
 from planner.mission.events import Restarted, Resume
-from planner.mission.plan_walk import NOT_CHOSEN
 from planner.plan import (
     Ask,
     Attempt,
@@ -27,6 +26,7 @@ from planner.plan import (
     Wait,
     WaitFor,
 )
+from planner.plan.plan_walk import NOT_CHOSEN
 from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.lockstep import Together
 from tests.planner.mission.telling import Telling, thing, untruths

@@ -8,10 +8,10 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.bridge_client.ownership import STAND
 from planner.language.catalogue import message
 from planner.mission.activity import Driving
-from planner.mission.allowed_commands import refusal
-from planner.mission.effects import STAND, AskRoute, Journal, SayAloud
+from planner.mission.effects import AskRoute, Journal, SayAloud
 from planner.mission.events import (
     Cancel,
     Command,
@@ -36,6 +36,7 @@ from planner.mission.events import (
 )
 from planner.mission.reducer import advance, motion_request
 from planner.mission.state import Mission, MissionState
+from planner.mission.transitions import refusal
 from planner.navigation.obstruction import Obstruction
 from planner.perception.snapshot import LookSnapshot as LookSeen
 from planner.perception.snapshot import Sight, Thing

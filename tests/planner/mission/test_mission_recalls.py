@@ -11,9 +11,9 @@ import pytest
 
 from planner.brain.scripted import Reply
 from planner.memory import MemoryStore, ObjectSighting, Recollection
-from planner.mission.deeds import find_deeds, tell_deeds
 from planner.mission.events import Recalled, Resume, Tick
 from planner.mission.events import Reply as AnswerGiven
+from planner.mission.recall_text import find_deeds, tell_deeds
 from planner.plan import (
     Attempt,
     Bilingual,

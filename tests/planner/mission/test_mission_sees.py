@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from planner.mission.activity import Driving, Observing
+from planner.mission.conversation import list_observations
 from planner.mission.events import Cancel, Pause, Reply, Resume, Tick, Told
-from planner.mission.observations import list_observations
 from planner.mission.reducer import asked_about_picture
 from planner.plan import (
     Code,

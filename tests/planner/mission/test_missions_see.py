@@ -20,7 +20,7 @@ from planner.brain.image_questions import (
 )
 from planner.mission.activity import Activity, AskingImage, Driving, Observing
 from planner.mission.effects import AskEyes, KeepPicture
-from planner.mission.events import Told
+from planner.mission.events import Event, Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
 from planner.mission.state import MissionState
@@ -288,7 +288,7 @@ async def test_a_look_round_shows_a_model_the_picture_of_each_direction(
 async def test_pictures_are_kept_for_few_goals_and_only_while_they_are_the_newest() -> None:
     eyes, looker = FakeEyes(LiveBridge(pose=START)), FakeLooker()
     door, names = EyeDoor(eyes, looker), (say_same("ahead"), say_same("behind"))
-    ask = AskEyes("g1", 1, Language.EN, words="?", views=names, now=names[1])
+    ask = AskEyes("g1", 1, Language.EN, AskImage("?", views=names, now=names[1]))
     for number in (0, 1):
         eyes.seq = 10 + number
         door.keep(KeepPicture("g1", number, eyes.seq))
@@ -341,7 +341,7 @@ async def test_what_only_a_model_knows_is_pointed_at_and_driven_up_to_upon_a_yes
 
 async def test_a_pixel_whose_picture_is_gone_leads_nowhere() -> None:
     eyes = FakeEyes(LiveBridge(pose=START))
-    ask = AskEyes("g1", 1, Language.EN, x=500, y=700)
+    ask = AskEyes("g1", 1, Language.EN, AskImage(x=500, y=700))
     door = EyeDoor(eyes)
     assert (await door.ask(ask)).answer == ImageAnswer(failure="point_no_pose")
     door.note("g1")
@@ -356,7 +356,7 @@ async def test_a_model_is_shown_the_picture_that_was_thought_upon_and_what_was_f
     eyes, looker = FakeEyes(LiveBridge(pose=START)), FakeLooker()
     door, eyes.seq = EyeDoor(eyes, looker), 40
     for eyes.behind in (3, 30):  # then that look is too old
-        await door.ask(AskEyes("g1", 1, Language.EN, words="what is there?"))
+        await door.ask(AskEyes("g1", 1, Language.EN, AskImage("what is there?")))
     assert looker.shown == [(37, START, 1), (40, None, 0)]
 
 
@@ -371,19 +371,22 @@ class Asking:
         self.broken: list[BaseException] = []
         nobody = cast("Think", None), cast("RouteService", None)
         answers = Answers(
-            planned=lambda _: None,
+            event=self._hear,
             routed=lambda *_: None,
             obstacles=lambda: (),
-            told=self.told.append,
             broken=self.broken.append,
         )
         eyes = EyeDoor(None)
         eyes.ask = door  # type: ignore[method-assign,assignment]  # another way to see
         self.helpers = MissionTasks(*nobody, answers, eyes)
 
+    def _hear(self, event: Event) -> None:
+        assert isinstance(event, Told)
+        self.told.append(event)
+
     async def ask(self, ticket: int) -> None:
         """Ask, and let it begin."""
-        self.helpers.help(AskEyes("g1", ticket, Language.EN, "what is there?"))
+        self.helpers.help(AskEyes("g1", ticket, Language.EN, AskImage("what is there?")))
         await asyncio.sleep(0)
 
 
@@ -470,7 +473,7 @@ async def test_a_pixel_counts_in_the_picture_that_was_wanted_for_it() -> None:
         await asyncio.sleep(0)
         await world.film(0.6)
         world.detector.failure = None
-        ask = AskEyes("g1", 1, Language.EN, "", False, 500, 900)
+        ask = AskEyes("g1", 1, Language.EN, AskImage(x=500, y=900))
         told = asyncio.create_task(door.ask(ask))
         await world.film(0.5)
         other = asyncio.create_task(door.ask(replace(ask, id="g2")))

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
+from planner.language.motion_guard.taking_back import takes_back
 from planner.mission.events import Pause, Planned, Reply, Stopped, Submitted
-from planner.mission.plan_roles import takes_back
 from planner.plan import (
     Ask,
     BrainTag,

@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
+from planner.bridge_client.bridge_status import standing
 from planner.language.catalogue import message
 from planner.language.grammar import Context, plan
 from planner.language.reading import ChangeReading
 from planner.language.sentence import language_of, parse
 from planner.mission import request_keys
-from planner.mission.bridge_status import standing
 from planner.mission.effects import AskBrain, ClearHold
 from planner.mission.errors import IdempotencyConflict, QueueFull
 from planner.mission.events import Cancel, Confirm, Planned, Reply, Submitted

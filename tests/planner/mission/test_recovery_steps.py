@@ -9,7 +9,7 @@ import pytest
 from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute
 from planner.mission.events import Pause, Resume, Surveyed
-from planner.mission.occupied_goal import OCCUPIED_S
+from planner.mission.legs import OCCUPIED_S
 from planner.mission.recovery import (
     FRESH,
     LADDER,

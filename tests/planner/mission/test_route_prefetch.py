@@ -12,8 +12,8 @@ import pytest
 from planner.brain.streamed_draft import Draft
 from planner.mission.event_hub import Subscription
 from planner.mission.plan_request import TELL_S, Hearing
-from planner.mission.route_prefetch import KEPT_S, RouteAhead
 from planner.mission.state import MissionState
+from planner.mission.tasks import KEPT_S, RouteAhead
 from planner.navigation import RouteFailure, RoutePoint, RouteRequest, RouteResult
 from planner.plan import GoalState, GoTo, ReturnHome, Step, Wait
 from tests.planner.mission.fakes import FACTS, status

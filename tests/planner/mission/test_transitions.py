@@ -1,14 +1,19 @@
-"""The table of a goal's states is whole, and nothing else writes a state."""
+"""The tables of states and commands are whole: nothing else writes a state or is allowed."""
 
 from __future__ import annotations
 
 import itertools
+import re
+from typing import Any
 
 import pytest
 
+from planner.mission.events import Cancel, ChangeSpeed, Move, Reply
+from planner.mission.reducer import advance
 from planner.mission.state import Mission, MissionState
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import (
+    ALLOWED,
     FIRST,
     TRANSITIONS,
     BrainCause,
@@ -16,6 +21,7 @@ from planner.mission.transitions import (
     GoalFact,
     PersonCause,
     next_state,
+    refusal,
 )
 from planner.plan import ENDED, GoalState, Language
 from tests.planner.mission.fakes import FACTS
@@ -64,3 +70,35 @@ def test_a_state_is_written_by_its_cause_alone() -> None:
     assert turn.book.missions["g1"] is mission
     assert turn.move_to(mission, GoalFact.STEPS_OVER, reason="x").state is GoalState.SUCCEEDED
     assert turn.book.missions["g1"].reason == "x"
+
+
+def test_every_command_in_every_state_is_allowed_or_refused_with_what_exists() -> None:
+    """The table is whole: what is absent is a typed refusal that names the state."""
+    for kind, allowed in ALLOWED.items():
+        for state in GoalState:
+            mission = _mission(state)
+            book = MissionState(FACTS, missions={"g1": mission})
+            given: dict[type, dict[str, Any]] = {
+                Reply: {"text": "x"},
+                ChangeSpeed: {"slower": True},
+            }
+            command = kind("g1", **given.get(kind, {}))
+            error = refusal(book, command)
+            assert (error is None) == (state in allowed)
+            if error is not None:
+                assert error.code == "bad_state"
+                assert state.value in error.message.en
+                assert not re.search("[a-z]{2}", error.message.zh), error.message.zh
+                after, effects = advance(book, command, 1.0)
+                assert (after, effects) == (book, ())
+
+
+def test_unknown_goals_are_named_with_what_exists() -> None:
+    mission = Mission(id="g1", order=1, text="x", language=Language.EN, state=GoalState.QUEUED,
+                      created_unix_s=0.0, updated_unix_s=0.0)  # fmt: skip
+    book = MissionState(FACTS, missions={"g1": mission}, queue=("g1",))
+    for command in (Cancel("nope"), Move("g1", "nope")):
+        error = refusal(book, command)
+        assert error is not None
+        assert error.code == "unknown_goal"
+        assert "g1" in error.message.en

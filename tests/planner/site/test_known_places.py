@@ -19,7 +19,7 @@ from maps.new_site import new_site
 from planner.brain.interface import ThinkRequest
 from planner.brain.prompt import Prompt
 from planner.bridge_client import Aged
-from planner.mission.place_survey import RobotSurvey
+from planner.mission.given_points import RobotSurvey
 from planner.navigation import RouteRequest, RouteResult
 from planner.site import MAX_HERE, PlaceRefusal, Site, SiteError, TaughtPlace, TaughtPlaces
 from planner.site.known_places import KnownPlaces, Lesson

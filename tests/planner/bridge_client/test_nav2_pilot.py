@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.mission.effects import STAND, MotionRequest
-from planner.mission.nav2_pilot import ACCEPT_S, OLD_S, PERIOD_S, SILENT_S, Nav2Pilot
+from planner.bridge_client.nav2_pilot import ACCEPT_S, OLD_S, PERIOD_S, SILENT_S, Nav2Pilot
+from planner.bridge_client.ownership import STAND, MotionRequest
 from tests.planner.mission.fakes import status
 from wire import GrantLeft, LegReport, Mode, Nav2Goal, Nav2Phase, Nav2State, Owner, Pose2, Velocity
 from wire.ros2_config import Nav2Config

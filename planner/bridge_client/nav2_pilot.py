@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import atan2, hypot
 from typing import TYPE_CHECKING
 
-from planner.mission.bridge_status import holding_rows, standing
+from planner.bridge_client.bridge_status import holding_rows, standing
 from wire import (
     LegReport,
     Mode,
@@ -27,7 +27,7 @@ from wire import (
 )
 
 if TYPE_CHECKING:
-    from planner.mission.effects import MotionRequest
+    from planner.bridge_client.ownership import MotionRequest
     from wire import RobotDescription
     from wire.ros2_config import Nav2Config
 
