@@ -129,7 +129,7 @@ ENGLISH = Grammar(
     clause_end=re.compile(
         r",(?! (?:and )?(?:who |whom )?you (?:can|may|will|could|might|should) (?:also )?(?:find|"
         r"meet|see) )"
-        r"|[;!?:。、]+|\.(?!\d)|\s[-–—]+\s|—"
+        r"|[;!?。、]+|:(?!\d\d)|\.(?!\d)|\s[-–—]+\s|—"
         r"|\b(?:and then|then|and|after that|afterwards|followed by)\b"
         rf"|(?<={MARK}) (?:in order )?to (?=(?:{_PURPOSE})\b)"
     ),
