@@ -25,7 +25,7 @@ from planner.language.reading import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
 from planner.mission.answered_order import complete_person
-from planner.mission.antecedents import fits, name_antecedents, thing_of
+from planner.mission.antecedents import fits, thing_of
 from planner.mission.departure import LEANS_S
 from planner.mission.open_questions import find_choice, find_offered_plan
 from planner.mission.outcomes import spot_at
@@ -75,8 +75,7 @@ def lean_of(book: MissionState, said: SaidSentence, now_unix_s: float) -> Change
         lean = _lean(book, change, orders, text)
         if lean is not None:
             return lean
-    words = name_antecedents(text, orders, book.facts, names) if intent is None else None
-    return ChangeReading(ChangedOrder(words=words)) if words is not None else None
+    return None
 
 
 def _take_back(
@@ -95,8 +94,7 @@ def _take_back(
         there = Change(Edit.INSTEAD, each.place, each.inner) if each.act is Edit.WHERE else each
         lean = _lean(book, there, orders, intent.rest) if there.act is Edit.INSTEAD else None
         changed = changed or (lean.changed if lean is not None else None)
-    named = name_antecedents(intent.rest, orders, book.facts, names) or intent.rest
-    changed = changed or ChangedOrder(words=named)
+    changed = changed or ChangedOrder(words=intent.rest)
     now = intent.now
     return ChangeReading(changed, ends=now, first=now, replaces=not now, corrects=True)
 
@@ -109,8 +107,7 @@ def _lean(
     if change.rest:
         if not _is_order(change.rest) or not _is_over_there(book, change, last):
             return None
-        rest = name_antecedents(change.rest, orders, book.facts, book.facts.names)
-        changed = ChangedOrder(words=rest or change.rest)
+        changed = ChangedOrder(words=change.rest)
         return ChangeReading(changed, ends=corrects, first=True, corrects=corrects)
     if change.who and last is not None and not _fits(change.who, last):
         return None
