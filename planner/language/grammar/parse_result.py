@@ -13,7 +13,7 @@ from re import Match, Pattern
 from typing import Protocol
 
 from planner.language.grammar.lexicon import MARK, Lexicon, MarkedText
-from planner.language.grammar.small_talk import Topic, topic_of
+from planner.language.grammar.small_talk import CLAUSES, Topic, topic_of
 from planner.plan import Bilingual, Code, Find, Language, Patrol, Step, Turn, Vocabulary
 
 
@@ -198,10 +198,18 @@ def ahead(reading: Reading, meaning: Steps) -> Reading:
     return replace(reading, scene=reading.scene.after(meaning))
 
 
-def on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
+def _on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
     """Read a clause that is a question the robot can answer by itself."""
-    topic = topic_of(found["topic"])
-    return None if topic in (None, Topic.SELF) else TopicQuestion(topic)
+    topic = Topic(found.lastgroup) if found.lastgroup else topic_of(found[0])
+    return (
+        None
+        if topic is None or (topic is Topic.SELF and not found.lastgroup)
+        else TopicQuestion(topic)
+    )
+
+
+TALK = tuple(Rule(each, _on_topic) for each in (*CLAUSES, re.compile(".+")))
+"""Read questions to the robot, greetings and thanks of both languages."""
 
 
 def about(topic: Topic) -> Build:
