@@ -14,7 +14,7 @@ from typing import Protocol
 
 from planner.language.grammar.lexicon import MARK, Lexicon, MarkedText
 from planner.language.grammar.small_talk import CLAUSES, Topic, topic_of
-from planner.plan import Bilingual, Code, Find, Language, Patrol, Step, Turn, Vocabulary
+from planner.plan import Bilingual, Code, Find, Language, Patrol, Step, Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,6 @@ class ClauseContext:
     toured: bool = False  # a round that looks at every stop was ordered
     kind: str = ""  # of the last step
     met: str | None = None  # where somebody was met: "take them back"
-    turned_rad: float | None = None  # by the last turn, where nothing was driven since
 
     def after(self, meaning: Meaning) -> ClauseContext:
         """Return the scene behind one more clause."""
@@ -97,18 +96,7 @@ class ClauseContext:
             seen=self.seen or meaning.seen,
             toured=self.toured or any(isinstance(s, Patrol) and s.look for s in meaning.steps),
             kind=meaning.steps[-1].kind if meaning.steps else self.kind,
-            turned_rad=_turned_rad(self.turned_rad, meaning.steps),
         )
-
-
-def _turned_rad(before_rad: float | None, steps: Sequence[Step]) -> float | None:
-    """Return the last turn [rad]; None where the robot has driven, or searched, since."""
-    for step in steps:
-        if isinstance(step, Turn):
-            before_rad = step.angle_rad
-        elif step.kind not in ("look", "say", "wait", "ask"):
-            before_rad = None
-    return before_rad
 
 
 @dataclass(frozen=True, slots=True)

@@ -230,7 +230,7 @@ def _read_once(
     """Read a normalised sentence once."""
     text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
-    marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
+    marked = mark_people(lexicon.mark(said), apart)
     language, moved = context.language or parse(text).language, context.moved or context.departed
     offers = not withholds_offers(marked.text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers, moved)
