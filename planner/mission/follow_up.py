@@ -14,7 +14,7 @@ from dataclasses import replace
 from math import hypot, pi
 from typing import TYPE_CHECKING
 
-from planner.language.changes.antecedents import complete_person, fits, name_antecedents, thing_of
+from planner.language.changes.antecedents import complete_person, fits, thing_of
 from planner.language.changes.reader import read_changes
 from planner.language.commands import HereCommand, Replace, intent_of
 from planner.language.folding import has_chinese
@@ -75,8 +75,7 @@ def lean_of(book: MissionState, said: SaidSentence, now_unix_s: float) -> Change
         lean = _lean(book, change, orders, text)
         if lean is not None:
             return lean
-    words = name_antecedents(text, orders, names) if intent is None else None
-    return ChangeReading(ChangedOrder(words=words)) if words is not None else None
+    return None
 
 
 def _take_back(
@@ -95,8 +94,7 @@ def _take_back(
         there = Change(Edit.INSTEAD, each.place, each.inner) if each.act is Edit.WHERE else each
         lean = _lean(book, there, orders, intent.rest) if there.act is Edit.INSTEAD else None
         changed = changed or (lean.changed if lean is not None else None)
-    named = name_antecedents(intent.rest, orders, names) or intent.rest
-    changed = changed or ChangedOrder(words=named)
+    changed = changed or ChangedOrder(words=intent.rest)
     now = intent.now
     return ChangeReading(changed, ends=now, first=now, replaces=not now, corrects=True)
 
@@ -109,8 +107,7 @@ def _lean(
     if change.rest:
         if not _is_order(change.rest) or not _is_over_there(book, change, last):
             return None
-        rest = name_antecedents(change.rest, orders, book.facts.names)
-        changed = ChangedOrder(words=rest or change.rest)
+        changed = ChangedOrder(words=change.rest)
         return ChangeReading(changed, ends=corrects, first=True, corrects=corrects)
     if change.who and last is not None and not _fits(change.who, last):
         return None

@@ -86,11 +86,6 @@ class GivenOrder(Frozen):
         """Return the part of the text that is an order by itself."""
         return self.text if self.changed is None else self.changed.words or self.text
 
-    @property
-    def has_changed_steps(self) -> bool:
-        """Tell whether it is steps of the order before it, changed."""
-        return self.changed is not None and bool(self.changed.steps)
-
 
 class Consent(Frozen):
     """Keep what people answered to a goal, and what it still waits for from them."""

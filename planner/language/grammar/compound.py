@@ -1,4 +1,4 @@
-"""Read a sentence whose orders hang on something: a condition, a failure, rounds, a wait.
+"""Read a sentence whose orders hang on a condition, or are done so often or slowly.
 
 One way for all tongues; the words are each language's own (``en/compound.py``, ``zh/compound.py``).
 Law: the sentence is cut, and every part must be an order, or a question that a look answers, which
@@ -13,16 +13,16 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, PartReaders
-from planner.language.numbers import seconds
+from planner.language.grammar.compound_forms import (
+    CompoundForms,
+    ConditionParts,
+    PartReaders,
+    read_hour,
+)
 from planner.language.object_names import resolve
-from planner.language.stop import is_stop
 from planner.plan import (
-    MAX_FOLLOW_S,
     Ask,
-    Attempt,
     ClockTime,
-    Follow,
     If,
     Look,
     Recall,
@@ -30,7 +30,6 @@ from planner.plan import (
     Say,
     Step,
     StepPlan,
-    WaitFor,
 )
 
 MOST_CUTS = 40
@@ -47,13 +46,7 @@ def read_compound(said: str, forms: CompoundForms, read: PartReaders) -> StepPla
         inner = read_compound(plain, forms, read)
         steps = inner.steps if inner is not None else read.steps(plain)
         return StepPlan(steps=steps, pace="slow") if steps else None
-    steps = (
-        _read_failure(said, forms, read)
-        or _read_condition(said, forms, read)
-        or _read_wait(said, forms, read)
-        or _read_rounds(said, forms, read)
-        or _read_follow(said, forms, read)
-    )
+    steps = _read_condition(said, forms, read) or _read_rounds(said, forms, read)
     return StepPlan(steps=steps) if steps else None
 
 
@@ -130,7 +123,7 @@ def _asked_of_clock(condition: str, forms: CompoundForms) -> tuple[ClockTime, bo
     found = forms.clock.fullmatch(condition.strip(" ,"))
     if found is None:
         return None
-    hour = forms.time((found["after"] or found["before"]).strip())
+    hour = read_hour((found["after"] or found["before"]).strip())
     if hour is None:
         return None
     return (ClockTime(after=hour) if found["after"] else ClockTime(before=hour)), False
@@ -193,19 +186,6 @@ def _look(question: str, parts: ConditionParts, read: PartReaders) -> Look | Non
     return last if all(step.kind in ("go_to", "look") for step in steps) else None
 
 
-def _read_failure(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
-    found = forms.failures.fullmatch(said)
-    if found is None:
-        return None
-    tried = read.steps(found["main"].strip(" ,;."))
-    if not tried or isinstance(tried[-1], Look):  # what a look says is no failure of it
-        return None
-    instead = read.steps(found["else"].strip(" ,;."))
-    if not instead:
-        return None
-    return (Attempt(steps=tried, on_failure=instead),)
-
-
 def _tell_them(order: str, forms: CompoundForms) -> str:
     """Return an order with what is told to "him" as words to be said where he was seen."""
     for pattern, plain in forms.tells:
@@ -240,40 +220,3 @@ def _read_rounds(said: str, forms: CompoundForms, read: PartReaders) -> tuple[St
     if times is None or not again:
         return None
     return (Repeat(times=times, steps=again),) if 1 <= times <= 20 else None
-
-
-def _read_follow(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
-    """Read a time for which somebody is followed; longer than a step may last it is not read."""
-    found = forms.follows.fullmatch(said)
-    steps = read.steps(found["main"].strip(" ,")) if found is not None else None
-    if found is None or not steps or not isinstance(steps[-1], Follow):
-        return None
-    far_s = seconds(found["number"], found["unit"])
-    if far_s is None or not 0.0 < far_s <= MAX_FOLLOW_S:
-        return None
-    return (*steps[:-1], steps[-1].model_copy(update={"seconds": far_s}))
-
-
-def _read_wait(said: str, forms: CompoundForms, read: PartReaders) -> tuple[Step, ...] | None:
-    """Read whom, which word or which hour is waited for, and what comes before and after it."""
-    for pattern in forms.waits:
-        found = pattern.fullmatch(said)
-        if found is None:
-            continue
-        parts = found.groupdict()
-        wait, first, then = _wait(parts, forms), parts.get("before"), parts.get("rest")
-        before = read.steps(first.strip(" ,")) if first else ()
-        rest = read.steps(_tell_them(then, forms).strip(" ,")) if then else ()
-        if wait is not None and before is not None and rest is not None:
-            return (*before, wait, *rest)
-    return None
-
-
-def _wait(parts: dict[str, str | None], forms: CompoundForms) -> WaitFor | None:
-    who, word, time = parts.get("who"), parts.get("word"), parts.get("time")
-    if time:
-        hour = forms.time(time)
-        return WaitFor(time=hour) if hour is not None else None
-    if word:  # a stop word stops: nobody could say it for anything else
-        return None if is_stop(word) else WaitFor(word=word)
-    return WaitFor(object="person") if who else None

@@ -10,12 +10,23 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from planner.language.folding import has_chinese
+from planner.language.schedule.parts import TimeOfDay
+from planner.language.schedule.time_finder import whole_parts
 from planner.plan import Recall, Step
 
 ReadSteps = Callable[[str], tuple[Step, ...] | None]
 """Return the steps of one order, or None where it is no plan."""
 NamePlace = Callable[[str], str]
 """Return a place's name in the sentence's language, by its id."""
+
+
+def read_hour(words: str) -> str | None:
+    """Return the hour that words name; None of a bare "seven", which is not said to be a.m."""
+    parts = whole_parts(words, in_chinese=has_chinese(words))
+    clock = next((part for part in parts if isinstance(part, TimeOfDay)), None)
+    sure = clock is not None and (clock.sure or re.search(r"\d[:：]\d\d$", words) is not None)
+    return f"{clock.hour:02d}:{clock.minute:02d}" if clock is not None and sure else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,15 +89,8 @@ class CompoundForms:
     """Stands between a person's name and the words for them."""
     cuts: re.Pattern[str]
     """Where a condition may end in ``body``."""
-    failures: re.Pattern[str]
-    """Groups ``main`` and ``else``."""
     rounds: re.Pattern[str]
     """Groups ``main`` and ``times``."""
     count: Callable[[str], int | None]
-    waits: tuple[re.Pattern[str], ...]
-    """Groups ``before``, ``rest``, and one of ``who``, ``word`` and ``time``."""
-    time: Callable[[str], str | None]
     slowly: re.Pattern[str]
     """Words that ask for no more than half the speed."""
-    follows: re.Pattern[str]
-    """Groups ``main``, ``number`` and ``unit``."""

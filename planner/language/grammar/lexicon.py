@@ -36,10 +36,6 @@ _PIECE = re.compile(r"[a-z0-9']+|\S")
 _OTHER_WORDS = re.compile(r"(?<=起)床|(?<=赖)床")
 """A place's name within a word of its own: 起床 goes to no bed."""
 _TYPO_LETTERS = 6  # shorter words have too many neighbours that are words: desk/deck, couch/coach
-_SLIPS = (
-    re.compile(r"(?<![a-z'])[a-z]{3,} [a-z]{3,}(?![a-z'])"),
-    re.compile(r"(?<![a-z'])[a-z]{5,}(?![a-z'])"),
-)
 KEPT_NAMES = 64
 """Unknown names of the newest sentence: it is read up to sixteen times over."""
 _NEAR = 66.0  # of 100; below it two names only share letters
@@ -138,21 +134,6 @@ class Lexicon:
         if self._only_door is None or _MOVES_DOOR.search(before) or len(mentions) >= MARKS:
             return found[0]
         mentions.append(Mention((self._only_door,), found[0]))
-        return chr(FIRST_MARK + len(mentions) - 1)
-
-    def mark_slips(self, marked: MarkedText) -> MarkedText:
-        """Replace misspelt place names as well, where one can mean nothing else."""
-        mentions = list(marked.mentions)
-        text = marked.text
-        for pattern in _SLIPS:
-            text = pattern.sub(lambda found: self._slip(found[0], mentions), text)
-        return MarkedText(text, tuple(mentions))
-
-    def _slip(self, written: str, mentions: list[Mention]) -> str:
-        place = self.typo(written) if len(mentions) < MARKS else None
-        if place is None:
-            return written
-        mentions.append(Mention((place,), written))
         return chr(FIRST_MARK + len(mentions) - 1)
 
     def _match(self, text: str, pieces: list[tuple[int, int]], at: int) -> int:

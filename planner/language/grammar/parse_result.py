@@ -13,8 +13,8 @@ from re import Match, Pattern
 from typing import Protocol
 
 from planner.language.grammar.lexicon import MARK, Lexicon, MarkedText
-from planner.language.grammar.small_talk import Topic, topic_of
-from planner.plan import Bilingual, Code, Find, Language, Patrol, Step, Turn, Vocabulary
+from planner.language.grammar.small_talk import CLAUSES, Topic, topic_of
+from planner.plan import Bilingual, Code, Find, Language, Patrol, Step, Vocabulary
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,6 @@ class ClauseContext:
     toured: bool = False  # a round that looks at every stop was ordered
     kind: str = ""  # of the last step
     met: str | None = None  # where somebody was met: "take them back"
-    turned_rad: float | None = None  # by the last turn, where nothing was driven since
 
     def after(self, meaning: Meaning) -> ClauseContext:
         """Return the scene behind one more clause."""
@@ -97,18 +96,7 @@ class ClauseContext:
             seen=self.seen or meaning.seen,
             toured=self.toured or any(isinstance(s, Patrol) and s.look for s in meaning.steps),
             kind=meaning.steps[-1].kind if meaning.steps else self.kind,
-            turned_rad=_turned_rad(self.turned_rad, meaning.steps),
         )
-
-
-def _turned_rad(before_rad: float | None, steps: Sequence[Step]) -> float | None:
-    """Return the last turn [rad]; None where the robot has driven, or searched, since."""
-    for step in steps:
-        if isinstance(step, Turn):
-            before_rad = step.angle_rad
-        elif step.kind not in ("look", "say", "wait", "ask"):
-            before_rad = None
-    return before_rad
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,10 +186,18 @@ def ahead(reading: Reading, meaning: Steps) -> Reading:
     return replace(reading, scene=reading.scene.after(meaning))
 
 
-def on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
+def _on_topic(found: Match[str], _reading: Reading) -> Meaning | None:
     """Read a clause that is a question the robot can answer by itself."""
-    topic = topic_of(found["topic"])
-    return None if topic in (None, Topic.SELF) else TopicQuestion(topic)
+    topic = Topic(found.lastgroup) if found.lastgroup else topic_of(found[0])
+    return (
+        None
+        if topic is None or (topic is Topic.SELF and not found.lastgroup)
+        else TopicQuestion(topic)
+    )
+
+
+TALK = tuple(Rule(each, _on_topic) for each in (*CLAUSES, re.compile(".+")))
+"""Read questions to the robot, greetings and thanks of both languages."""
 
 
 def about(topic: Topic) -> Build:

@@ -25,7 +25,6 @@ from planner.language.grammar.compound_forms import PartReaders
 from planner.language.grammar.context import NOWHERE, Context
 from planner.language.grammar.en.compound import ENGLISH_COMPOUND
 from planner.language.grammar.en.orders import ENGLISH
-from planner.language.grammar.en.talk import TALK
 from planner.language.grammar.lexicon import (
     MARK,
     MarkedText,
@@ -34,6 +33,7 @@ from planner.language.grammar.lexicon import (
     person_named,
 )
 from planner.language.grammar.parse_result import (
+    TALK,
     ClauseContext,
     ClauseProblem,
     Meaning,
@@ -55,7 +55,6 @@ from planner.language.grammar.sentence_text import (
 )
 from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.grammar.zh.orders import CHINESE
-from planner.language.grammar.zh.talk import TALK as ZH_TALK
 from planner.language.recall import read_recall
 from planner.language.sentence import parse
 from planner.language.stop import StopReading
@@ -231,7 +230,7 @@ def _read_once(
     """Read a normalised sentence once."""
     text, apart, quotes = sentence.text, sentence.apart, sentence.quotes
     lexicon = lexicon_of(vocabulary)
-    marked = mark_people(lexicon.mark_slips(lexicon.mark(said)), apart)
+    marked = mark_people(lexicon.mark(said), apart)
     language, moved = context.language or parse(text).language, context.moved or context.departed
     offers = not withholds_offers(marked.text)
     setting = Setting(vocabulary, lexicon, language, context.room, context.now, offers, moved)
@@ -239,7 +238,7 @@ def _read_once(
     things = context.things if "go_to_object" in context.runnable else frozenset()
     maps = "explore" in context.runnable
     reading = Reading(marked, lexicon, vocabulary, language, quotes, context.now, things, maps=maps)
-    topic = read_by((*TALK, *ZH_TALK), bare, reading)
+    topic = read_by(TALK, bare, reading)
     if isinstance(topic, TopicQuestion):  # it moves nothing: "… or just that there's a person?"
         return compose([topic], bare, setting)
     vetoed = _apply_vetoes(marked, setting)

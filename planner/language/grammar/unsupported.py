@@ -4,15 +4,13 @@
 - What the robot has done ("did you find the cup", 找到杯子了吗): a question or a statement, never
   an order. Nothing is driven or searched for it, and this brain keeps no record to answer from.
   Where the robot itself is, it can tell.
-- The robot's own sides ("on your left", 身后): the camera looks ahead. An order to look there turns
-  the robot first; a question, "tell me" too, orders no turn, and what is ahead is no answer to it:
-  it is not understood. After a turn to that very side what is ahead is the answer.
+- The robot's own sides ("on your left", 身后): the camera looks ahead, and that is no answer
+  to a question or a look there: it is not understood, and the learned reader may offer the turn.
 """
 
 from __future__ import annotations
 
 import re
-from math import cos, pi
 from re import Match
 
 from planner.language.grammar.en import PERSON, WORD, loc
@@ -27,11 +25,12 @@ from planner.language.grammar.parse_result import (
     about,
     read_place,
     rule,
+    unread,
 )
 from planner.language.grammar.small_talk import Topic
 from planner.language.grammar.step_builders import label_of, meet, place_of
 from planner.language.grammar.zh import SEE, SPOT, THING, WHAT, WHETHER
-from planner.plan import Code, Find, GoTo, Look, Step, Turn
+from planner.plan import Code, Find, GoTo, Step
 
 _THE = r"(?:(?:the|a|an|my|our|your|some|any|this|that|one|two|three) )?"
 _EN_THING = re.compile(
@@ -171,40 +170,6 @@ PAST_CHINESE: tuple[Rule, ...] = (
 )
 
 
-_SAME_SIDE = 0.9
-"""Cosine of a turn against the side that is asked about: within 25 degrees."""
-_LEFT = re.compile(r"\b(?:your|the|look|look to) left\b|\bleft of\b|左")
-_RIGHT = re.compile(r"\b(?:your|the|look|look to) right\b|\bright of\b|右")
-_BEHIND = re.compile(r"\bbehind\b|\bback(?:wards?)?\b|[后背]")
-
-
-def _side_rad(said: str) -> float:
-    """Return by how much the robot must turn to face the side that words name [rad]."""
-    if _BEHIND.search(said):
-        return pi
-    return pi / 2 if _LEFT.search(said) else -pi / 2
-
-
-def _look_aside(found: Match[str], reading: Reading) -> Meaning:
-    """Turn to the side that is to be looked at, where the order has not turned there already."""
-    look = Look(question=found[0])
-    if _has_turned(found[0], reading):
-        return Steps((look,), seen=True)
-    return Steps((Turn(angle_rad=_side_rad(found[0])), look), seen=True)
-
-
-def _has_turned(said: str, reading: Reading) -> bool:
-    turned_rad = reading.scene.turned_rad
-    return turned_rad is not None and cos(turned_rad - _side_rad(said)) > _SAME_SIDE
-
-
-def _unseen(found: Match[str], reading: Reading) -> Meaning | None:
-    """Say no to a question about a side that the camera does not see; None where it does."""
-    if _has_turned(found[0], reading):
-        return None
-    return reading.problem(Code.NOT_UNDERSTOOD, found[0])
-
-
 _NO_PLACE = r"[^,\ue000-\ue8ff]*"
 _LOOK = r"(?:(?:have |take )a (?:quick )?look|look|check|inspect|peek|glance)(?! (?:around )?for\b)"
 _TOLD = r"(?: (?:and|to) (?:tell me|see) what [a-z ]+)?"
@@ -225,18 +190,18 @@ ASIDE_ENGLISH: tuple[Rule, ...] = (
         rf"{_LOOK} (?:(?:to )?(?:the |your )?(?:left|right)|behind(?: you)?"
         rf"|(?<=look )back(?:wards?)?){_TOLD}"
         rf"|{_LOOK}\b{_NO_PLACE}? (?:behind you|(?:on|to|at) your (?:left|right)){_TOLD}",
-        _look_aside,
+        unread,
     ),
     rule(
         rf"(?:{_TELL} )?what (?:is|do you see|can you see) behind.*"
         r"|what (?:is|do you see|can you see) (?:on|to) (?:your|the) (?:left|right).*",
-        _unseen,
+        unread,
     ),
-    rule(rf"(?={_ASK}\b){_NO_PLACE}?\b{_OWN}{_NO_PLACE}", _unseen),
+    rule(rf"(?={_ASK}\b){_NO_PLACE}?\b{_OWN}{_NO_PLACE}", unread),
     rule(
         rf"(?:(?:{_TELL} )?(?:what|who) {_SEES}(?: there)?|(?:is|are) there{_NO_PLACE}?) "
         r"(?:on|to) the (?:left|right)(?: side)?",
-        _unseen,
+        unread,
     ),
 )
 """Tried ahead of what is said of people: "can you see anyone behind you" orders no search."""
@@ -255,11 +220,11 @@ ASIDE_CHINESE: tuple[Rule, ...] = (
     rule(
         rf"(?:往|向|朝)[左右后](?:边|面|侧)?{_LOOKS}(?:{_THERE})?"
         rf"|{_LOOKS}{_YOUR}(?:[左右后]|{_SIDE}(?:{_THERE})?)",
-        _look_aside,
+        unread,
     ),
     rule(
         rf"(?:你|您)?(?:能|可以)?(?:{_TELLING}|{SEE}|{_SEEN})(?:一下|下|了)?"
         rf"(?:{_NO_PLACE}?在)?{_YOUR}(?:{_SIDE}|左右){_NO_PLACE}",
-        _unseen,
+        unread,
     ),
 )

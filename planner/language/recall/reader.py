@@ -59,7 +59,7 @@ def read_recall(text: str, vocabulary: Vocabulary, room: str | None = None) -> R
     if not text.strip() or len(text) > MAX_READ:
         return None
     lexicon = lexicon_of(vocabulary)
-    marked = lexicon.mark_slips(lexicon.mark(normalise(text)))
+    marked = lexicon.mark(normalise(text))
     words = chinese if has_chinese(text) else english
     asked = _take_apart(marked, words, room)
     if asked is None:

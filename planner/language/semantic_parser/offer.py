@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING
 from pydantic import ValidationError
 
 from planner.language.catalogue import say
-from planner.language.grammar.en.compound import ENGLISH_COMPOUND
+from planner.language.grammar.compound_forms import read_hour
 from planner.language.grammar.lexicon import lexicon_of
 from planner.language.grammar.plan_assembly import sentence
-from planner.language.grammar.zh.compound import CHINESE_COMPOUND
 from planner.language.motion_guard import denied_places
 from planner.language.order_sentence import (
     is_order_sentence,
@@ -200,8 +199,7 @@ def _make_steps(
 ) -> StepPlan | None:
     if plan[0].form in CHANGES:
         return change_order(plan[0], newest)
-    forms = CHINESE_COMPOUND if language is Language.ZH else ENGLISH_COMPOUND
-    maker = StepMaker(vocabulary, language, forms.time, read_span)
+    maker = StepMaker(vocabulary, language, read_hour, read_span)
     return maker.plan(name_pointed(plan, newest))
 
 

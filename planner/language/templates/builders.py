@@ -23,6 +23,7 @@ BUILDERS: Mapping[str, Callable[[TemplateFind, Reading], Meaning | None]] = {
     "stand": driving.stand,
     "ask": driving.ask,
     "wait": driving.wait,
+    "wait_for": driving.wait_for,
     "turn": driving.turn,
     "move": driving.move,
     "turn_and_move": driving.turn_and_move,

@@ -12,6 +12,7 @@ from math import copysign, pi
 from pydantic import ValidationError
 
 from planner.language.catalogue import say as message_of
+from planner.language.grammar.compound_forms import read_hour
 from planner.language.grammar.noun_phrases import go_to, several_of, up_to
 from planner.language.grammar.parse_result import ClauseProblem, Meaning, Reading, Steps
 from planner.language.grammar.quotes import FIRST_QUOTE
@@ -26,6 +27,7 @@ from planner.language.grammar.step_builders import (
     one_at_a_time,
 )
 from planner.language.numbers import times
+from planner.language.stop import is_stop
 from planner.language.templates.template_file import TemplateFind
 from planner.plan import (
     Code,
@@ -39,6 +41,7 @@ from planner.plan import (
     StandAt,
     Turn,
     Wait,
+    WaitFor,
 )
 
 HOW_FAR = message_of("grammar.how_far")
@@ -128,6 +131,16 @@ def wait(found: TemplateFind, reading: Reading) -> Meaning:
         return Steps((Wait(seconds=found.amounts["duration"]),))
     except ValidationError:
         return reading.problem(Code.BAD_PLAN, found[0])
+
+
+def wait_for(found: TemplateFind, reading: Reading) -> Meaning | None:
+    """Read who, which word or which hour is waited for; a stop word stops, whoever says it."""
+    word, time = found["word"], read_hour(found["time"]) if found["time"] else None
+    if found["who"]:
+        return Steps((WaitFor(object=found["who"]),))
+    if word and " " not in word and len(word) <= 12 and not is_stop(word):
+        return Steps((WaitFor(word=reading.marked.restore(word)),))
+    return Steps((WaitFor(time=time),)) if time else None
 
 
 _NOT_SAID = re.compile(

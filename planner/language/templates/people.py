@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import say
@@ -33,7 +34,7 @@ from planner.language.grammar.step_builders import (
 from planner.language.grammar.step_builders import follow as follow_person
 from planner.language.grammar.step_builders import guide as guide_person
 from planner.language.grammar.step_builders import meet as meet_person
-from planner.plan import Ask, Code, ComeBack, Decide, GoToObject, Say
+from planner.plan import MAX_FOLLOW_S, Ask, Code, ComeBack, Decide, Follow, GoToObject, Say
 
 if TYPE_CHECKING:
     from planner.language.templates.template_file import TemplateFind
@@ -108,7 +109,15 @@ def present_itself(found: TemplateFind, reading: Reading) -> Meaning:
 def follow(found: TemplateFind, reading: Reading) -> Meaning:
     """Find somebody and follow them, to a place where one is named."""
     start = _place_in(found) or _place_in(found, "start")
-    return follow_person(found["who"], start, _place_in(found, "to"), reading)
+    followed = follow_person(found["who"], start, _place_in(found, "to"), reading)
+    far_s = found.amounts.get("duration")
+    if far_s is None or not isinstance(followed, Steps):
+        return followed
+    if not 0.0 < far_s <= MAX_FOLLOW_S:
+        return replace(reading.problem(Code.NOT_UNDERSTOOD, found[0]), places=())
+    update = {"seconds": far_s}
+    steps = (s.model_copy(update=update) if isinstance(s, Follow) else s for s in followed.steps)
+    return replace(followed, steps=tuple(steps))
 
 
 def guide(found: TemplateFind, reading: Reading) -> Meaning:

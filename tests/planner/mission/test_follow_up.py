@@ -381,7 +381,6 @@ CAT_MOVED = "go to the living room and see if the cat is on the sofa"
         # The same person is told more.
         (MUM_ZH, "还要讲晚上不回来吃饭", "跟卧室的妈妈说“晚上不回来吃饭”"),
         (MUM_ZH, "再跟她说一声晚上不回来吃饭", "跟卧室的妈妈说“晚上不回来吃饭”"),
-        (DAD, "and tell him dinner is ready", "tell Dad in the study dinner is ready"),
         # Who else is meant waits until it is known where the first is.
         (order_asked_about("去叫爸爸吃饭"), "顺便叫上奶奶", None),
         # Another person is told in place of the first, or other words are said.

@@ -5,17 +5,9 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms
-from planner.language.grammar.en.conditions import PERSON, read_condition, read_memory
-from planner.language.numbers import EN_DURATION, EN_OFTEN, times
+from planner.language.grammar.en.conditions import read_condition, read_memory
+from planner.language.numbers import EN_OFTEN, times
 
-_NOT = r"(?:can not|cannot|could not|do not|does not|are not able to|is not)"
-_YOU = r"(?:you|it|that|this|the way|the door|there)"
-_FAILS = (
-    rf"(?:{_YOU} {_NOT}(?: (?:get|(?:go|drive)(?= there| in)|reach|enter|make|find|see|work"
-    r"|possible|there|in|it|that|him|her|them|anything|a way|the (?:way|room)|out))*"
-    r"|(?:it|that|this|the (?:way|door|room)) (?:fails|is (?:blocked|closed|shut|locked))"
-    r"|there is no way(?: there| in)?)"
-)
 _OTHERWISE = (
     r"(?:[,;.]? ?(?:and |but )?(?:otherwise|or else|else|if not|if no)(?:,| then)?(?: just)? )"
 )
@@ -39,52 +31,11 @@ def _count(words: str) -> int | None:
     return times(words) if words else None
 
 
-_HOURS = {
-    word: hour
-    for hour, word in enumerate(
-        ("twelve", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
-         "eleven")
-    )
-}  # fmt: skip
-
-
-def _time(words: str) -> str | None:
-    found = re.fullmatch(
-        r"(?P<half>half past )?(?P<hour>\d{1,2}|[a-z]+)(?::(?P<minute>\d\d))?(?: ?o'?clock)?"
-        r"(?: ?(?P<noon>[ap])\.?m\.?)?",
-        words,
-    )
-    if found is None:
-        return None
-    hour = int(found["hour"]) if found["hour"].isdigit() else _HOURS.get(found["hour"])
-    minute = 30 if found["half"] else int(found["minute"] or 0)
-    if hour is None or not (hour <= 23 and minute <= 59):
-        return None
-    if found["noon"] and hour <= 12:
-        hour = hour % 12 + (12 if found["noon"] == "p" else 0)
-    elif not found["minute"] or found["half"]:
-        return None  # "seven" alone: in the morning or in the evening?
-    return f"{hour:02d}:{minute:02d}"
-
-
-_GO_ON = r"(?:[,;.]? ?(?:and then|then|and|,) ?(?P<rest>.+))?"
-_BEFORE = r"(?:(?P<before>.+?)(?:,| and then|, then| and|;|\.) )?"
-_STAY = r"(?:please )?(?:wait|stay|stand|hold on)(?: here| there| still| right here)*"
-
-_COMES = (
-    r"(?:(?:comes?|gets?|arrives?|walks?|returns?|drops?|pops?)(?: (?:in|by|along|over|home|here"
-    r"|there|back|inside|round|to the door|through the door|from (?:work|school)))*"
-    r"|(?:is|are) (?:there|here|back|home|in)|appears?|(?:shows?|turns?) up|enters?)"
-)
 _THEM = r"(?:him|her|them)"
 _TOLD_END = r"(?=$|[,;]| and (?:then )?(?:go|come|drive|return|look|find|wait|follow|turn|head)\b)"
 
 ENGLISH_COMPOUND = CompoundForms(
-    trigger=re.compile(
-        r"\b(?:if|unless|in case|until|till|every|twice|thrice|times|slowly|carefully|follow"
-        r"|(?:wait|stay|stand) .*for)\b",
-        re.ASCII,
-    ),
+    trigger=re.compile(r"\b(?:if|unless|in case|twice|thrice|times|slowly|carefully)\b", re.ASCII),
     conditions=(
         re.compile(
             rf"(?:please )?{_IF} (?P<body>(?:there is )?(?:nobody|no one)\b.+?)[,.;]"
@@ -136,23 +87,7 @@ ENGLISH_COMPOUND = CompoundForms(
     ),
     calls=", ",
     cuts=re.compile(rf" then |{_NOT_BEGUN} (?={_VERBS}\b)"),
-    failures=re.compile(
-        rf"(?:try to )?(?P<main>.+?)[,;.]? (?:and |but |or )?{_IF} {_FAILS}"
-        r"(?:,| then|, then)? (?P<else>.+?)(?: instead)?"
-    ),
     rounds=re.compile(rf"(?P<main>.+?),? (?:a )?(?P<times>twice|thrice|(?:{EN_OFTEN}) times)"),
     count=_count,
-    waits=(
-        re.compile(rf"{_BEFORE}{_STAY}(?: until| till) i say (?P<word>[a-z]+){_GO_ON}"),
-        re.compile(
-            rf"{_BEFORE}{_STAY}(?: until| till) (?:it is )?"
-            rf"(?P<time>(?:half past )?[a-z0-9]+(?::\d\d)?(?: ?[ap]\.?m\.?)?){_GO_ON}"
-        ),
-        re.compile(rf"{_BEFORE}{_STAY}(?: until| till) (?P<who>{PERSON}) {_COMES}{_GO_ON}"),
-        re.compile(rf"{_BEFORE}{_STAY} for (?P<who>{PERSON})(?: to {_COMES})?{_GO_ON}"),
-    ),
-    time=_time,
     slowly=re.compile(r"\b(?<!not )(?<!too )(?:very |nice and )?(?:slowly|carefully)\b"),
-    follows=re.compile(rf"(?P<main>.*\bfollow\b.+?) for {EN_DURATION}"),
 )
-"""A bare "seven" is no time: whether in the morning or in the evening is not said."""

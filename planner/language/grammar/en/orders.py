@@ -10,9 +10,8 @@ import re
 from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_EN
 from planner.language.grammar.clauses import Grammar
-from planner.language.grammar.en.talk import TALK
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import lacks, rule, unread
+from planner.language.grammar.parse_result import TALK, lacks, rule, unread
 from planner.language.grammar.unsupported import lacks_arm
 from planner.language.templates.reader import TemplateStage
 from planner.plan import Code, Language
@@ -129,7 +128,7 @@ ENGLISH = Grammar(
     clause_end=re.compile(
         r",(?! (?:and )?(?:who |whom )?you (?:can|may|will|could|might|should) (?:also )?(?:find|"
         r"meet|see) )"
-        r"|[;!?:。、]+|\.(?!\d)|\s[-–—]+\s|—"
+        r"|[;!?。、]+|:(?!\d\d)|\.(?!\d)|\s[-–—]+\s|—"
         r"|\b(?:and then|then|and|after that|afterwards|followed by)\b"
         rf"|(?<={MARK}) (?:in order )?to (?=(?:{_PURPOSE})\b)"
     ),

@@ -5,17 +5,13 @@ from __future__ import annotations
 import re
 
 from planner.language.grammar.compound_forms import CompoundForms, ConditionParts, MemoryParts
-from planner.language.numbers import ZH_DURATION, ZH_OFTEN, times
+from planner.language.numbers import ZH_OFTEN, times
 
 _IF = r"(?:如果|要是|假如|假若|倘若|若是|万一)"
 _THEN = r"[,，]?(?:那么|那)?(?:就|便|你就)?"
 _OTHERWISE = (
     r"[,，;；。]?(?:否则的?话?|不然的?话?|要不然|要不(?![要是])|"
     rf"{_IF}?(?:没有?|不是|没人|没有人|有人|有)(?:的话)?[,，]?(?=就|便|去|回|到|等|说))(?:就|便|再)?"
-)
-_FAILS = (
-    rf"(?:{_IF})?(?:你)?(?:去|进|到|过|找|看|开)不(?:了|去|到|见|着)(?:那里|那儿|它)?(?:的话)?"
-    r"|(?:如果|要是|万一)(?:路|门)?(?:不行|被?(?:挡住|堵住|堵|锁|关)了?(?:着)?)(?:的话)?"
 )
 
 
@@ -62,49 +58,6 @@ def _read_memory(said: str) -> MemoryParts | None:
     return MemoryParts(asked, asked != plain)
 
 
-_DIGITS = {digit: value for value, digit in enumerate("零一二三四五六七八九十")} | {"两": 2}
-
-
-def _number(words: str) -> int | None:
-    if words.isdigit():
-        return int(words)
-    tens, ten, ones = words.partition("十")
-    if not ten:
-        return _DIGITS.get(words)
-    high, low = _DIGITS.get(tens, 1) if tens else 1, _DIGITS.get(ones, 0) if ones else 0
-    return 10 * high + low
-
-
-def _time(words: str) -> str | None:
-    found = re.fullmatch(
-        r"(?P<part>早上|上午|中午|下午|晚上|今晚)?(?P<hour>\d{1,2}|[零一二三四五六七八九十两]+)"
-        r"(?:[:：](?P<minute>\d\d)|点(?:钟|(?P<half>半)|(?P<spoken>[零一二三四五六七八九十]+)分?)?)",
-        words,
-    )
-    if found is None:
-        return None
-    hour = _number(found["hour"])
-    minute = 30 if found["half"] else _number(found["minute"] or found["spoken"] or "零")
-    late = found["part"] in ("下午", "晚上", "今晚")
-    if hour is None or minute is None or not (hour <= 23 and minute <= 59):
-        return None
-    if late and hour < 12:
-        hour += 12
-    elif not found["part"] and not found["minute"]:
-        return None  # 七点: 早上还是晚上没有说
-    return f"{hour:02d}:{minute:02d}"
-
-
-_HOUR = (
-    r"(?:早上|上午|中午|下午|晚上|今晚)?[零一二三四五六七八九十两\d]+"
-    r"(?:[:：]\d\d|点(?:钟|半|[零一二三四五六七八九十]+分?)?)"
-)
-_GO_ON = r"(?:(?:之后|以后|后)?[,，;；。]?(?:然后|再|就|接着)?(?P<rest>.+))?"
-_STAY = (
-    r"(?:请|先)?(?:你)?(?:就)?(?:在这里|在这儿|在原地|留在这里)?(?:请)?等(?:着|到|待|候)?[,，]?"
-    r"(?:直到|到)?"
-)
-_BEFORE = r"(?:(?P<before>[^等]+?)[,，]?(?:然后|再)?)??"
 _ORDER = (
     r"(?:先|去|回|到|等|说|左|右|转|前|往|跟|找|看|停|掉|开"
     r"|告诉|问|叫|喊|吱|吭|报告|通知|对|提醒|让)"
@@ -118,7 +71,7 @@ _TOLD = r"(?P<w>[^,，;；。\"“”]{1,60}?)(?=$|[,，;；。])"
 
 CHINESE_COMPOUND = CompoundForms(
     trigger=re.compile(
-        r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|不了|不到|不去|不着|[次遍趟圈回]$|等|慢|跟|问|直到|为止|转到"
+        r"如果|要是|假如|假若|倘若|若是|万一|除非|只有|的话|有没有|没有?的?话?|[次遍趟圈回]$|慢"
     ),
     conditions=(
         re.compile(rf"(?:现在)?{_IF}(?P<if>{_LATE})(?:的话)?{_THEN}{_THEN_ELSE}"),
@@ -161,23 +114,9 @@ CHINESE_COMPOUND = CompoundForms(
     ),
     calls=",",
     cuts=re.compile(r"(?!)"),
-    failures=re.compile(
-        rf"(?P<main>.+?)[,，;；。](?:{_FAILS})[,，]?(?:就|便|再)?(?:改)?(?P<else>.+)"
-    ),
     rounds=re.compile(rf"(?P<main>.+?)(?P<times>{ZH_OFTEN})(?:次|遍|趟|回)"),
     count=times,
-    waits=(
-        re.compile(
-            rf"{_BEFORE}{_STAY}我说(?!完|好)(?P<word>[^,，;；。再就然]{{1,6}})(?:了|的时候)?{_GO_ON}"
-        ),
-        re.compile(rf"{_BEFORE}{_STAY}(?P<time>{_HOUR}){_GO_ON}"),
-        re.compile(
-            rf"{_BEFORE}{_STAY}(?:看到|看见|见到)?(?P<who>有人|客人|有客人|人)(?:来|出现|过来|进来)?了?{_GO_ON}"
-        ),
-    ),
-    time=_time,
     slowly=re.compile(
         r"(?<![不太])(?:慢慢|缓慢|慢一?点儿?)地?(?=[去到回来开走往跟前后退倒转移靠绕向])"
     ),
-    follows=re.compile(rf"(?P<main>.*跟.+?){ZH_DURATION}"),
 )

@@ -12,10 +12,17 @@ from planner.language.grammar import unsupported
 from planner.language.grammar.checks import EXCEPTIONS_ZH
 from planner.language.grammar.clauses import Grammar
 from planner.language.grammar.lexicon import MARK
-from planner.language.grammar.parse_result import Meaning, Reading, Steps, lacks, rule, unread
+from planner.language.grammar.parse_result import (
+    TALK,
+    Meaning,
+    Reading,
+    Steps,
+    lacks,
+    rule,
+    unread,
+)
 from planner.language.grammar.unsupported import lacks_arm
 from planner.language.grammar.zh import ALL_ROOMS, GO, IN, SEE, VERB
-from planner.language.grammar.zh.talk import TALK
 from planner.language.templates.reader import TemplateStage
 from planner.plan import Code, Language
 

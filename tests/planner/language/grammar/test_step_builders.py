@@ -68,8 +68,6 @@ OTHERS = {
     ),
     "去厨房看看有没有人，然后回来告诉我": "kitchen look=看看有没有人@kitchen come_back",
     "go to the kitchen and tell me where the cup is": "kitchen find=cup@kitchen",
-    "看看左边": "turn=90 look=看看左边",
-    "look behind you": "turn=180 look=look behind you",
     "到处找找我的手机": "find=手机",
     "去厨房找找看有没有杯子": "kitchen find=杯子@kitchen",
     "家里有几个箱子": "count=箱子",
@@ -111,7 +109,11 @@ NOT_AHEAD = (
     "go to the kitchen and tell me what is behind you", "turn left and tell me who is behind you",
     "后面有什么", "告诉我后面有什么", "你背后是谁", "告诉我左边有没有人", "描述一下你后面有什么",
     "你能看到后面有人吗", "看到谁在你后面", "数一数后面有几个人", "去厨房告诉我后面有什么",
-    "向左转，告诉我后面有什么",
+    "向左转，告诉我后面有什么", "看看左边", "look behind you", "check what is behind you",
+    "look at the chair on your right", "look to the left and tell me what you see", "look back",
+    "turn around and tell me who is behind you", "turn right. what is on your right?",
+    "看看后面有没有人", "看看你右边的椅子", "往左边看看有什么", "转身，告诉我后面有什么",
+    "看看身后",
 )  # fmt: skip
 LEANS = (
     *("find it for me plssss", "find them all for me", "count them n tell us", "count em"),
@@ -119,19 +121,8 @@ LEANS = (
 )
 """What leans on something before it is no thing."""
 LOOKED_AT_AFTER_A_TURN = {
-    "check what is behind you": "turn=180 look=check what is behind you",
-    "look at the chair on your right": "turn=-90 look=look at the chair on your right",
-    "look to the left and tell me what you see": "turn=90 look=look to the left",
-    "look back": "turn=180 look=look back",
     "turn around and tell me what you see": "turn=180 look=tell me what you see",
-    "turn around and tell me who is behind you": "turn=180 look=tell me who is behind you",
-    "turn right. what is on your right?": "turn=-90 look=what is on your right",
-    "看看后面有没有人": "turn=180 look=看看后面有没有人",
-    "看看你右边的椅子": "turn=-90 look=看看你右边的椅子",
-    "往左边看看有什么": "turn=90 look=往左边看看有什么",
     "转身告诉我你看到了什么": "turn=180 look=告诉我你看到了什么",
-    "转身，告诉我后面有什么": "turn=180 look=告诉我后面有什么",
-    "看看身后": "turn=180 look=看看身后",
 }
 WHEREABOUTS = {
     "where is the red cup?": "red cup",
