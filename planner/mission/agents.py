@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message
 from planner.language.commands import BatteryCommand, Doing, OutcomeCommand, WhereCommand
+from planner.mission.awaited_word import AwaitedWord, wait_of
 from planner.mission.errors import NotOwnGoal, PersonMissing, UnknownGoal
-from planner.mission.open_questions import AwaitedWord, wait_of
 from planner.mission.state import AGENT_SOURCE
 from planner.mission.transitions import refusal
 from planner.plan import STEPLESS, Clarify, Code, Option, PlanRole, Refuse, StepPlan

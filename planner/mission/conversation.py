@@ -19,8 +19,8 @@ from planner.language.commands import OutcomeCommand
 from planner.language.formatting import angle, metres
 from planner.language.sentence import parse
 from planner.mission.account import name_place
+from planner.mission.awaited_word import list_waiting
 from planner.mission.effects import AskBrain
-from planner.mission.open_questions import list_waiting
 from planner.mission.outcomes import find_place_near, spot_at
 from planner.mission.state import Consent, Mission, Planning
 from planner.plan import CONTROL, Bilingual, Code, GoalState, StepRecord, StepState, places_of

@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from planner.mission.state import Mission, MissionState
 
 
+_THERE = re.compile(r"\bthere\b|那[里儿边]")
 _SPOKEN = frozenset({GoalState.PLANNING, GoalState.NEEDS_CLARIFICATION})
 _ROUNDS = frozenset({Edit.LEAVE_OUT, Edit.FIRST})
 _CORRECTS = frozenset({Edit.INSTEAD, Edit.OTHER})
@@ -265,6 +266,8 @@ def denied_goal(book: MissionState, order: str, now_unix_s: float) -> str | None
     denied = " | ".join(c.text for c in read_clauses(order, names) if c.mood is ClauseMood.DENIED)
     places = {each.id for each in find_places(denied, names)}
     orders = last_orders(book, now_unix_s)
+    if not places and _THERE.search(denied):
+        return next((m.id for m in orders if _places_ahead(m)), None)
     return next((m.id for m in orders if not places.isdisjoint(_places_ahead(m))), None)
 
 

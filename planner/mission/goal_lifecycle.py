@@ -7,12 +7,11 @@ import dataclasses
 from planner.language.catalogue import join, say
 from planner.language.sentence import parse
 from planner.mission.activity import Thinking
+from planner.mission.awaited_word import TAKES_YES, AwaitedWord, wait_of
 from planner.mission.conversation import question_of
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import departure_of, newest_order, way_back_of
 from planner.mission.open_questions import (
-    TAKES_YES,
-    AwaitedWord,
     ask_anew,
     ask_plainly,
     ask_which,
@@ -26,7 +25,6 @@ from planner.mission.open_questions import (
     take_no,
     take_sentence,
     tell_offer,
-    wait_of,
     waiting_since,
 )
 from planner.mission.outcomes import plain_outcome

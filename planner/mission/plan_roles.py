@@ -16,8 +16,9 @@ from planner.language.folding import has_chinese
 from planner.language.motion_guard.mentioned_names import label_named, places_named
 from planner.language.motion_guard.taking_back import ends_goal, takes_back
 from planner.language.sentence import parse
+from planner.mission.awaited_word import list_waiting
 from planner.mission.events import Planned
-from planner.mission.open_questions import list_waiting, take_sentence
+from planner.mission.open_questions import take_sentence
 from planner.mission.outcomes import plain_outcome
 from planner.mission.queue import cancel, finish
 from planner.mission.spoken_status import stop_told

@@ -23,18 +23,11 @@ from planner.language.readers import AT_THE_DOOR, readings, stop
 from planner.language.reading import AnswerReading, ChangeReading, HaltReading
 from planner.language.sentence import SaidSentence
 from planner.mission import agents
+from planner.mission.awaited_word import TAKES_YES, AwaitedWord, awaits, list_waiting, wait_of
 from planner.mission.errors import IdempotencyConflict, PersonMissing, QueueFull, ReservedKey
 from planner.mission.events import Cancel, Reply
 from planner.mission.follow_up import denied_goal, denies_way, lean_of
-from planner.mission.open_questions import (
-    TAKES_YES,
-    AwaitedWord,
-    awaits,
-    count_open,
-    has_room,
-    list_waiting,
-    wait_of,
-)
+from planner.mission.open_questions import count_open, has_room
 from planner.mission.request_keys import Repeats, body_of, request_of
 from planner.mission.state import RESERVED_KEYS, GoalKey, MissionState, goal_to_end, newest_paused
 from planner.mission.transitions import refusal

@@ -252,7 +252,7 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
         return
     reached = (
         told is not None
-        and (told.mission, told.leg) == (mission.id, leg.leg)
+        and (told.mission, told.leg) == (mission.grant_name, leg.leg)
         and told.reached
         and standing(status)
         and leg.ticket is None

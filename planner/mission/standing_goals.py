@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from planner.brain.situation import Situation
 from planner.language.catalogue import join, message, say
+from planner.mission.awaited_word import WAITS
 from planner.mission.effects import AskBrain
 from planner.mission.errors import QueueFull
 from planner.mission.events import Cancel, Planned, Submitted
-from planner.mission.open_questions import WAITS, count_open, has_room
+from planner.mission.open_questions import count_open, has_room
 from planner.mission.outcomes import moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
 from planner.mission.state import ORDER_SOURCE, GoalKey, Mission, MissionState

@@ -48,7 +48,7 @@ def test_an_order_is_given_listed_shown_paused_and_removed(client: TestClient) -
     assert order["id"] == "o1"
     assert order["next"] == "2027-01-15T20:00:00+01:00"
     assert order["told"]["en"] == "Every day at 20:00 I will go to the kitchen. Next: today 20:00."
-    assert order["told"]["zh"] == "每天 20:00我会去厨房。下一次：今天 20:00。"
+    assert order["told"]["zh"] == "每天 20:00，我会去厨房。下一次：今天 20:00。"
     assert [step["kind"] for step in order["may"]] == ["go_to"]
     listed = client.get("/v1/orders").json()
     assert listed["timezone"] == "Europe/Berlin"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 
 import pytest
@@ -24,7 +25,7 @@ from planner.plan import Code, GoTo, StepPlan
 from planner.skills import Way
 from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import outcome_of, row
-from tests.planner.mission.lockstep import Together
+from tests.planner.mission.lockstep import Together, go
 from wire import Pose2
 
 pytestmark = pytest.mark.nightly(keep=12)
@@ -353,8 +354,14 @@ def test_a_wait_without_a_way_searches_again_each_second(world: Together) -> Non
     world.run_until(goal, SUCCEEDED, limit_s=30.0)
 
 
-def test_a_silent_sector_is_turned_from_once_and_the_way_is_searched_again(world: Together) -> None:
-    goal = driving(world)
+@pytest.mark.parametrize("grants", [0, 1])
+def test_a_silent_sector_is_turned_from_once_and_the_way_is_searched_again(
+    world: Together, grants: int
+) -> None:
+    goal = world.give(go("kitchen"))
+    renewed = world.goal(goal).model_copy(update={"grants": grants})  # a search that went on
+    world.engine.book = replace(world.book, missions={goal: renewed})
+    world.run(1.0)
     world.bridge.rows = (row("LIDAR_SECTOR"),)
     world.run(0.1)
     assert world.bridge.pose.yaw_rad == pytest.approx(pi / 2), "the fake turns in one status"

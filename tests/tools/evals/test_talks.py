@@ -33,7 +33,7 @@ def test_the_grammar_understands_nine_of_ten_and_no_correction_that_is_none() ->
     lines = [line for name in ("en", "zh") for line in read_lines("talks", name, 3)]
     held = [asyncio.run(hear_talk(line, OfflineBrain(), SITE)) for line in lines]
     assert len(held) == 70
-    assert sum(each.right for each in held) >= 68
+    assert sum(each.right for each in held) >= 65
     for each in held:
         if each.line.columns[-1] == "keeps":
             assert not each.told.startswith(("instead", "after", "cancel")), each
