@@ -30,14 +30,15 @@ SENTENCE, OTHER = "go to the kitchen", "go to the living room"
 class Limit:
     """Hold what a figure may be at most now, and where it is to come; the first only goes down.
 
-    Marks raised the bridge's files from 34 to 35 (docs/adr/0079).
+    Marks raised the bridge's files from 34 to 35 (docs/adr/0079); what reads a parted goal's record
+    raised the functions from 487 to 497 (docs/adr/0033), in fewer files.
     """
 
     most: int
     aim: int
 
 
-FILES, FUNCTIONS = Limit(110, 60), Limit(487, 250)
+FILES, FUNCTIONS = Limit(104, 60), Limit(497, 250)
 EXPRESSIONS = Limit(282, 300)
 BRIDGE_FILES = Limit(35, 25)
 LIMIT_S = 20.0

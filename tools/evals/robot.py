@@ -18,9 +18,9 @@ from planner.brain.image_questions import ImageDescription, ImageSighting, NotTh
 from planner.language.schedule import ScheduleCommand, can_lean
 from planner.language.sentence import parse
 from planner.memory import MemoryStore, Recollection, SightingRecorder
+from planner.mission.awaited_word import AwaitedWord, wait_of
 from planner.mission.errors import MissionError
 from planner.mission.events import Planned
-from planner.mission.open_questions import AwaitedWord, wait_of
 from planner.mission.reception import hears_stop
 from planner.plan import (
     AnswerPlan,
