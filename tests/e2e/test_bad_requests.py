@@ -50,7 +50,7 @@ ORDERS = {
     "unknown place": ("go to the moon", ASKED, "unknown_place"),
     "unknown place zh": ("去月球", ASKED, "unknown_place"),
     "nonsense": ("colourless green ideas sleep furiously", ASKED, "not_understood"),
-    "nonsense zh": ("天地玄黄宇宙洪荒", ASKED, "not_understood"),
+    "nonsense zh": ("天地玄黄宇宙洪荒", NO, "not_understood"),
 }
 
 
