@@ -65,7 +65,7 @@ CHOSEN = $(addprefix tests/,$(ROOM)) $(if $(CHANGED),$(shell $(BIN)/python -m sc
 GATE = $(if $(WHOLE)$(ROOM)$(CHANGED),,--gate)
 TOLD = $(if $(strip $(CHOSEN)),$(filter $(CHOSEN) $(addsuffix /%,$(CHOSEN)),$(STORIES)),$(STORIES))
 
-test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories (about 6 min on 2 cores); ROOM=planner/mission or CHANGED=HEAD: those alone
+test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories (about 7 min on 2 cores); ROOM=planner/mission or CHANGED=HEAD: those alone
 	@$(if $(CHANGED)$(ROOM),$(if $(strip $(CHOSEN)),,echo "no test imports what changed"; exit 0;)) scripts/units.sh $(GATE) $(CHOSEN) $(ARGS)
 	@$(if $(CHANGED)$(ROOM),$(if $(strip $(TOLD)),,exit 0;)) exec scripts/stories.sh -m "e2e and not home" $(GATE) $(TOLD) $(ARGS)
 

@@ -28,9 +28,6 @@ from tests.planner.mission.fakes import outcome_of, row
 from tests.planner.mission.lockstep import Together, go
 from wire import Pose2
 
-pytestmark = pytest.mark.nightly(keep=12)
-
-
 CRATE = Obstruction((2.5, -0.25), (2.5, 0.25))
 NAMES = [rung.recovery.value for rung in LADDER if rung.recovery is not Recovery.GIVE_WAY]
 """Before a thing: way is given to people alone."""

@@ -26,9 +26,6 @@ from tests.planner.mission.lockstep import go, talk
 from tests.planner.mission.saying import CANCELLED, CONFIRMS, PAUSED, RUNNING, SUCCEEDED
 from wire import HeldReason, OpRequest, Stop
 
-pytestmark = pytest.mark.nightly(keep=25)
-
-
 SMALL_TALK = AnswerPlan(text=Bilingual(en="I see.", zh="好的。"))
 UNREAD = Clarify(code=Code.NOT_UNDERSTOOD, question=Bilingual(en="What?", zh="什么？"))
 OVER = (SUCCEEDED, GoalState.NEEDS_CLARIFICATION, GoalState.CANCELLED)

@@ -33,9 +33,6 @@ from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, outcome_of
 from tests.planner.mission.telling import NOTHING, Telling, thing, untruths
 
-pytestmark = pytest.mark.nightly(keep=10)
-
-
 NAMES = {place: target.name for place, target in FACTS.targets.items()}
 ROOMS = {"kitchen": (4.0, 0.0), "hall": (0.0, 0.0)}
 ASKS = {
