@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     from pons.settings import LaunchSettings
 
+ASKED_S = 1.0
+"""The planner is not waited for any longer: who asks watches the processes."""
 _CODE: Final = re.compile(r"\b([a-z0-9]+(?:_[a-z0-9]+)+): ")
 CHINESE: Final[Mapping[str, str]] = {
     "robot_toml_missing": "找不到或无法读取 robot.toml：请检查 --robot 的路径",
@@ -112,12 +114,9 @@ def chinese_line(refusal: str) -> str:
 
 
 def drives_to_try(settings: LaunchSettings) -> str:
-    """Return an order for a room that the planner knows.
-
-    It is asked, for what reads a site stays in memory as long as `pons up` runs.
-    """
+    """Return an order for a room of the planner's: what reads a site itself would stay loaded."""
     try:
-        places = call(settings, "GET", "/v1/capabilities")["places"]
+        places = call(settings, "GET", "/v1/capabilities", timeout_s=ASKED_S)["places"]
     except (PlannerDown, PlannerProblem):
         places = []  # it is ready, and tells more to who asks it
     say = f"{command_path()} say"

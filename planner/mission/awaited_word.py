@@ -47,22 +47,19 @@ def wait_of(mission: Mission) -> AwaitedWord | None:
         return AwaitedWord.PLAN
     if step is not None and step.state is StepState.RUNNING:
         return AwaitedWord.STEP
-    if plan is None or len(plan.options) == 1:
-        return (
-            AwaitedWord.OFFER
-            if plan is not None and not is_stop(plan.options[0].text)
-            else AwaitedWord.ORDER
-        )
-    if plan.options:
+    options = () if plan is None else plan.options
+    if len(options) > 1:
         return AwaitedWord.CHOICE
-    model = brain is not None and brain.name != OFFLINE
+    if options:
+        return AwaitedWord.ORDER if is_stop(options[0].text) else AwaitedWord.OFFER
+    model = plan is not None and brain is not None and brain.name != OFFLINE
     return AwaitedWord.FREELY if model else AwaitedWord.ORDER
 
 
 def find_offer(mission: Mission) -> str | None:
     """Return the one order that a brain's question offers; None where it offers none or several."""
-    offers = mission.plan is not None and wait_of(mission) is AwaitedWord.OFFER
-    return mission.plan.options[0].text if mission.plan is not None and offers else None
+    plan = mission.plan if wait_of(mission) is AwaitedWord.OFFER else None
+    return None if plan is None else plan.options[0].text
 
 
 def list_waiting(book: MissionState, besides: str = "") -> tuple[Mission, ...]:

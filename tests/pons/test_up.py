@@ -128,6 +128,7 @@ def test_what_to_try_names_a_room_that_the_planner_knows(
     tmp_path: Path, free_port: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pons, site = command_path(), CHECKOUT / "sites" / "two_room"
+    monkeypatch.setattr("pons.launch_words.ASKED_S", 10.0)  # a starved machine answers late
     with served() as planner:
         up = LaunchSettings(tmp_path, CHECKOUT / "robot.toml", site, "127.0.0.1", planner.port)
         assert what_to_try(up) == f'try: {pons} say "go to the living room"   {pons} stop'
