@@ -27,10 +27,11 @@ _TAIL = re.compile(r"(?: (?:please|thanks|thank you|then|i think|i guess))+$")
 _LEAD_ZH = re.compile(r"(?:嗯|呃|哦|那|就|请|去|到|在|是|我说的是|我是说|选|要)+")
 _TAIL_ZH = re.compile(r"(?:吧|啊|呀|呢|谢谢|就行|就好|好了)+$")
 _ORDINALS = (
-    re.compile(r"(?:first|1st|former)(?: one)?|第一个?|前者|前面?(?:那个|的)"),
-    re.compile(r"(?:second|2nd)(?: one)?|第二个?"),
-    re.compile(r"(?:third|3rd)(?: one)?|第三个?"),
-)
+    re.compile(r"(?:first|1st|former)(?: one)?|(?:(?:number|option) )?(?:1|one)"
+               r"|第[一1]个?|[一1]号?|前者|前面?(?:那个|的)"),
+    re.compile(r"(?:second|2nd)(?: one)?|(?:(?:number|option) )?(?:2|two)|第[二2]个?|[二2]号?"),
+    re.compile(r"(?:third|3rd)(?: one)?|(?:(?:number|option) )?(?:3|three)|第[三3]个?|[三3]号?"),
+)  # fmt: skip
 _LAST = re.compile(r"(?:last|latter)(?: one)?|后者|后面?(?:那个|的)|最后(?:一个|那个)")
 
 

@@ -58,7 +58,8 @@ _ENGLISH = {
     "|nuh uh|no chance|not a chance|not happening|stay|stay here|stay there|you may not"
     "|you can't|you cannot|you must not|you shouldn't|you should not|by no means|no deal"
     "|i said no|maybe not|probably not|maybe later|later|another time|next time"
-    "|some other time|no sir",
+    "|some other time|no sir|none|none of them|none of these|none of those|neither"
+    "|neither of them|neither of these|neither of those",
     COURTESY: "please|pls|plz|thanks|thank you|thank you very much|thanks a lot|many thanks|cheers"
     "|robot|pons|um|umm|uh|uhh|er|erm|ah|oh|well|hey|hello|hi|so|then|now|right now|just"
     "|actually|i said|great|good|perfect|cool|nice|lovely|super|right|sir|mate|buddy|dear"
@@ -81,7 +82,7 @@ _CHINESE = {
     "|先不|先别|先别去|暂时不用|暂时不要|暂时别|当然不|当然不行|当然不要|当然不可以"
     "|绝对不行|绝对不要|千万别|千万不要|否|否定|错|错了|拒绝|我拒绝|反对|算了|免了|唔好"
     "|唔要|唔使|唔得|唔系|冇|我说不|不是这个|不是那个|不是它|不用去了|不用过去了|不太好"
-    "|不太想|改天|下次|以后再说|no|nope",
+    "|不太想|改天|下次|以后再说|no|nope|都不是|都不对|都不要|两个都不是|两个都不对|两个都不要",
     COURTESY: "嗯|呃|额|哦|噢|喔|啊|哎|诶|嘿|喂|那个|那|那就|就|请|您|你|麻烦|麻烦你|麻烦您|麻烦了"
     "|麻烦你了|麻烦您了|还是|谢谢|谢谢你|谢谢您|多谢|感谢|谢了|辛苦|辛苦了|辛苦你了|拜托"
     "|拜托了|机器人|小车|现在|马上|赶紧|快|我|我说|please|thanks|robot|pons|你就",

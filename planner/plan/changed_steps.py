@@ -18,7 +18,7 @@ from planner.plan.slots import (
     names_place,
     places_in,
     places_inside,
-    put_person,
+    put_name,
     put_place,
     put_words,
     room_of,
@@ -87,7 +87,7 @@ def _also(last: LastOrder, change: Change) -> Steps | None:
 
 def _put_person_or_words(last: LastOrder, change: Change) -> Steps | None:
     if change.person is not None:
-        return put_person(last.steps, last.person, change.person)
+        return put_name(last.steps, last.person, change.person)
     return put_words(last.steps, last.person, change.words) if change.words is not None else None
 
 
@@ -100,6 +100,8 @@ def _widen_patrol(last: LastOrder, place: str) -> Steps | None:
 
 
 def _instead(last: LastOrder, change: Change) -> Steps | None:
+    if change.place is None and change.thing is not None:
+        return put_name(last.steps, last.thing, change.thing)
     if change.place is None:
         return _put_person_or_words(last, change)
     if change.who:

@@ -129,8 +129,8 @@ def _pattern(names: Vocabulary, place: str) -> re.Pattern[str]:
     )
 
 
-def put_person(steps: Sequence[Step], old: str | None, new: str) -> tuple[Step, ...] | None:
-    """Return steps for another person; None where they are for none, or for that one."""
+def put_name(steps: Sequence[Step], old: str | None, new: str) -> tuple[Step, ...] | None:
+    """Return steps for another person or thing; None where they are for none, or for that one."""
     if not old or old.casefold() == new.casefold():
         return None
     edge = (r"(?<![a-z])", r"(?![a-z])") if old.isascii() else ("", "")

@@ -6,7 +6,7 @@ from collections import Counter, defaultdict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from planner.language.semantic_parser.decoding import decode_plan
+from planner.language.semantic_parser.decoding import decode_plans
 from planner.language.semantic_parser.normal_plan import normalise_plan
 from planner.language.semantic_parser.plan_grammar import LabelledPlan, PlanNode
 
@@ -25,6 +25,8 @@ DRIVES = frozenset(
 _PLAIN = frozenset(
     {"the", "a", "an", "my", "our", "your", "his", "her", "their", "this", "that", "some", "any"}
 )
+DRAFTS = 3
+"""Written side by side, as the planner does."""
 _WHOLE_SLOTS = frozenset({"go", "patrol", "inspect", "turn", "move"})
 
 
@@ -82,9 +84,9 @@ def judge(network: PointerNetwork, examples: Sequence[PlanExample]) -> list[Verd
     """Return what the network reads of each example."""
     verdicts = []
     for example in examples:
-        parsed = decode_plan(network, example.said)
-        plan = normalise_plan(parsed.plan) if parsed else ()
-        verdicts.append(Verdict(example, plan, parsed.confidence if parsed else 0.0))
+        surest = next(iter(decode_plans(network, example.said, DRAFTS)), None)
+        plan = normalise_plan(surest.plan) if surest else ()
+        verdicts.append(Verdict(example, plan, surest.confidence if surest else 0.0))
     return verdicts
 
 

@@ -13,6 +13,7 @@ import argparse
 import sys
 from collections import Counter, defaultdict
 from dataclasses import replace
+from datetime import UTC, datetime
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,7 +33,12 @@ from planner.language.grammar.context import Context
 from planner.language.readers import OrderWords, read_order
 from planner.language.recall import read_span
 from planner.language.schedule import ChangeOrders, CorrectOrder, ListOrders, ScheduleCommand
-from planner.language.semantic_parser.changed_order import CHANGES, change_order, name_pointed
+from planner.language.semantic_parser.changed_order import (
+    CHANGES,
+    change_order,
+    name_pointed,
+    put_first,
+)
 from planner.language.semantic_parser.normal_plan import normalise_plan
 from planner.language.semantic_parser.plan_grammar import ALONE, FORMS, SlotKind, parse_plan
 from planner.language.semantic_parser.plan_steps import StepMaker
@@ -66,7 +72,7 @@ _MOVES = frozenset(
     {"go_to", "stand_at", "come_back", "return_home", "turn", "move", "patrol", "explore"}
     | {"go_to_object", "find", "count", "follow", "look"}
 )
-_CONTEXT = Context(runnable=frozenset(EVERY_KIND))
+_CONTEXT = Context(runnable=frozenset(EVERY_KIND), now=datetime(2026, 5, 4, 10, 30, tzinfo=UTC))
 _INTENTS: dict[str, type[object]] = {
     "pause": PauseCommand,
     "resume": ResumeCommand,
@@ -88,6 +94,7 @@ class PlannerVerdict(StrEnum):
 
     AT_ONCE = "right at once"
     AFTER_YES = "right after one yes"
+    AFTER_CHOICE = "right after one choice of several"
     OTHER_OFFER = "another order offered"
     ASKED = "asked"
     WRONG_MOTION = "wrong motion"
@@ -201,10 +208,17 @@ def _judge_words(row: WrittenSentence, label: PlanNode, made: Plan) -> PlannerVe
     if isinstance(made, StepPlan):
         return PlannerVerdict.WRONG_MOTION if _moves(made) else PlannerVerdict.WRONG_STILL
     options = made.options if isinstance(made, Clarify) else ()
-    if len(options) != 1:
+    meant = [each.plan is None and _is_meant(parse(each.text).intent, label) for each in options]
+    return _of_offers(meant)
+
+
+def _of_offers(are_meant: list[bool]) -> PlannerVerdict:
+    """Return what becomes of a sentence that is met with these offers."""
+    if not are_meant:
         return PlannerVerdict.ASKED
-    meant = options[0].plan is None and _is_meant(parse(options[0].text).intent, label)
-    return PlannerVerdict.AFTER_YES if meant else PlannerVerdict.OTHER_OFFER
+    if not any(are_meant):
+        return PlannerVerdict.OTHER_OFFER
+    return PlannerVerdict.AFTER_YES if len(are_meant) == 1 else PlannerVerdict.AFTER_CHOICE
 
 
 def _read_kept(text: str, when: str, vocabulary: Vocabulary, context: Context) -> Plan | None:
@@ -239,13 +253,16 @@ def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
     language = Language(row.language)
     context = _CONTEXT.model_copy(update={"language": language, "newest": last})
     if form in _INTENTS:
-        return _judge_words(row, label[0], _read(row.words, vocabulary, context))
+        named = parse_plan(row.label)[0]
+        return _judge_words(row, named, _read(row.words, vocabulary, context))
     maker = StepMaker(vocabulary, language, lambda words: "10:00", read_span)
     when = label[0].slots[0][0] if form == "at" else ""
     deed = name_pointed(label[0].blocks[0] if form == "at" else label, last)
     meant = maker.plan(deed) if form not in ALONE else None
     if form in CHANGES:
         meant = change_order(label[0], last)
+    if form == "first" and meant is not None:
+        meant = put_first(meant, last)
     made: Plan | None = _read(row.words, vocabulary, context)
     at_once = _read_kept(row.words, when, vocabulary, context) if form == "at" else made
     if isinstance(at_once, StepPlan) and meant is not None and _is_same(at_once, meant):
@@ -255,16 +272,17 @@ def judge_sentence(row: WrittenSentence) -> PlannerVerdict:
     if isinstance(made, StepPlan):
         return PlannerVerdict.WRONG_MOTION if _moves(made) else PlannerVerdict.WRONG_STILL
     options = made.options if isinstance(made, Clarify) else ()
-    if len(options) == 1:
-        text, laid = options[0].text, _laid_plan(options[0], when)
+    if not options and form in ("none", "refuse"):
+        return PlannerVerdict.QUIET
+
+    def is_meant(option: Option) -> bool:
+        text, laid = option.text, _laid_plan(option, when)
         if laid is None:
             kept = _read_kept(text, when, vocabulary, context) if when else None
             laid = kept if when else _read(text, vocabulary, context)
-        if meant is not None and isinstance(laid, StepPlan) and _is_same(laid, meant):
-            return PlannerVerdict.AFTER_YES
-        return PlannerVerdict.OTHER_OFFER
-    quiet = form in ("none", "refuse")
-    return PlannerVerdict.QUIET if quiet else PlannerVerdict.ASKED
+        return meant is not None and isinstance(laid, StepPlan) and _is_same(laid, meant)
+
+    return _of_offers([is_meant(each) for each in options])
 
 
 def main() -> None:

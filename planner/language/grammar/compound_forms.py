@@ -9,24 +9,39 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import datetime
 
-from planner.language.folding import has_chinese
+from planner.language.folding import fold_words, has_chinese
 from planner.language.schedule.parts import TimeOfDay
 from planner.language.schedule.time_finder import whole_parts
 from planner.plan import Recall, Step
 
+HALF_A_DAY_H = 12
 ReadSteps = Callable[[str], tuple[Step, ...] | None]
 """Return the steps of one order, or None where it is no plan."""
 NamePlace = Callable[[str], str]
 """Return a place's name in the sentence's language, by its id."""
 
 
-def read_hour(words: str) -> str | None:
-    """Return the hour that words name; None of a bare "seven", which is not said to be a.m."""
-    parts = whole_parts(words, in_chinese=has_chinese(words))
+def read_hour(words: str, now: datetime | None = None) -> str | None:
+    """Return the hour that words name, as HH:MM.
+
+    A bare "seven", which is not said to be a.m., is the one that comes next after ``now``; without
+    ``now`` it is none.
+    """
+    parts = whole_parts(fold_words(words), in_chinese=has_chinese(words))
     clock = next((part for part in parts if isinstance(part, TimeOfDay)), None)
-    sure = clock is not None and (clock.sure or re.search(r"\d[:：]\d\d$", words) is not None)
-    return f"{clock.hour:02d}:{clock.minute:02d}" if clock is not None and sure else None
+    if clock is None:
+        return None
+    is_sure = clock.sure or clock.hour > HALF_A_DAY_H or re.search(r"\d[:：]\d\d$", words)
+    if not is_sure and now is None:
+        return None
+    minutes = clock.hour * 60 + clock.minute
+    if not is_sure and now is not None:
+        first = minutes % (HALF_A_DAY_H * 60)
+        halves = (first, first + HALF_A_DAY_H * 60)
+        minutes = next((each for each in halves if each > now.hour * 60 + now.minute), first)
+    return f"{minutes // 60:02d}:{minutes % 60:02d}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,9 +25,10 @@ from planner.plan import (
 
 CHANGES = frozenset(
     {"again", "more", "less", "other", "skip", "also", "also_thing", "change_place"}
+    | {"change_thing"}
 )
 """Forms that change the newest order."""
-_IN_ITS_PLACE = frozenset({"other", "skip", "change_place"})
+_IN_ITS_PLACE = frozenset({"other", "skip", "change_place", "change_thing"})
 """What they make of an order that is not over is done in its place."""
 
 
@@ -67,6 +68,13 @@ def change_order(node: PlanNode, last: LastOrder | None) -> StepPlan | None:
     return StepPlan(steps=steps, does=role) if steps else None
 
 
+def put_first(plan: StepPlan, last: LastOrder | None) -> StepPlan:
+    """Return a plan that is done before what is left of the newest order, in that order's place."""
+    if last is None or not last.ahead:
+        return plan
+    return StepPlan(steps=(*plan.steps, *last.ahead), does=PlanRole.INSTEAD)
+
+
 def _changes(form: str, named: str | None) -> tuple[Change, ...]:
     """Return what a form may mean, the likelier first."""
     match form:
@@ -84,4 +92,6 @@ def _changes(form: str, named: str | None) -> tuple[Change, ...]:
             return (Change(Edit.ALSO, place=named),)
         case "also_thing":
             return (Change(Edit.ALSO, thing=named),)
+        case "change_thing":
+            return (Change(Edit.INSTEAD, thing=named),)
     return (Change(Edit.INSTEAD, place=named),)

@@ -1,4 +1,4 @@
-"""Let the network write a plan greedily, each action held to the grammar and to the sentence."""
+"""Let the network write the likeliest plans, held to the grammar and to the sentence."""
 
 from __future__ import annotations
 
@@ -23,6 +23,10 @@ from planner.language.semantic_parser.linear_plan import (
 from planner.language.semantic_parser.plan_grammar import LabelledPlan, SlotKind
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
     from planner.language.semantic_parser.network import PointerNetwork
     from planner.language.semantic_parser.units import SentenceUnits
 
@@ -64,46 +68,105 @@ def allowed_actions(expected: NextActions, said: SentenceUnits) -> tuple[list[in
     return tokens, units
 
 
-def decode_plan(
-    network: PointerNetwork, said: SentenceUnits, least_confidence: float = 0.0
-) -> ParsedPlan | None:
-    """Return the plan that the network reads in a sentence; None where it finds no end.
+@dataclass(frozen=True, slots=True)
+class _Draft:
+    """Hold a row of actions that is being written."""
 
-    None, too, as soon as it is less sure than asked: each action only lowers the confidence.
+    walk: GrammarWalk
+    actions: tuple[Action, ...] = ()
+    log_probability: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _NextStep:
+    """Hold one action that may come next, of the draft in a row of the decoder's memory."""
+
+    row: int
+    action: Action
+    log_probability: float
+    """Of the whole draft with it."""
+    first: int
+    """Of a unit: the first one that is told with it."""
+
+
+def decode_plans(
+    network: PointerNetwork, said: SentenceUnits, most: int = 1, least_confidence: float = 0.0
+) -> tuple[ParsedPlan, ...]:
+    """Return the likeliest plans of a sentence, the surest first; none where no draft finds an end.
+
+    Drafts are written side by side, each action taken by the likeliest of all (beam search), and
+    one is left as soon as it is less sure than asked: each action only lowers the confidence.
+
+    Args:
+        network: that scores the actions.
+        said: the sentence.
+        most: so many plans at most, and so many drafts beside each other.
+        least_confidence: of a plan, from 0 to 1.
     """
-    encoded = network.encode(sentence_features(said.units))
-    memory, written = network.begin(len(said.units)), network.token(0)
-    walk, actions, log_probability = GrammarWalk(), list[Action](), 0.0
-    while not walk.is_done:
-        if len(actions) >= MAX_ACTIONS:
-            return None
-        scores, unit_scores = network.step(encoded, memory, written, walk.part_number)
-        expected = walk.next_actions()
+    encoded, memory = network.encode(sentence_features(said.units)), network.begin(len(said.units))
+    drafts, written = [_Draft(GrammarWalk())], [network.token(0)]
+    found: dict[LabelledPlan, float] = {}
+    for _ in range(MAX_ACTIONS):
+        parts = [draft.walk.part_number for draft in drafts]
+        scores = network.step(encoded, memory, written, parts)
+        steps = sorted(
+            _likeliest_steps(drafts, scores, said, most), key=lambda step: -step.log_probability
+        )
+        nth = sorted(found.values(), reverse=True)[most - 1 : most] or [0.0]
+        least = max(least_confidence, *nth)
+        kept = [step for step in steps[:most] if exp(step.log_probability) >= least]
+        memory = memory.pick([step.row for step in kept])
+        before, drafts, written, rows = drafts, [], [], []
+        for row, step in enumerate(kept):
+            walk = before[step.row].walk.fork()
+            walk.take(step.action)
+            actions = (*before[step.row].actions, step.action)
+            if walk.is_done:
+                found.setdefault(read_actions(actions, said), exp(step.log_probability))
+                continue
+            if isinstance(step.action, int):
+                memory.point(row, step.action, step.first)
+                written.append(encoded.taken[step.action])
+            else:
+                written.append(network.token(TOKEN_NUMBERS[step.action] + 1))
+            drafts.append(_Draft(walk, actions, step.log_probability))
+            rows.append(row)
+        if not drafts:
+            break
+        memory = memory.pick(rows)
+    surest = sorted(found.items(), key=lambda item: -item[1])
+    return tuple(ParsedPlan(plan, confidence) for plan, confidence in surest[:most])
+
+
+def _likeliest_steps(
+    drafts: Sequence[_Draft],
+    scores: tuple[NDArray[np.float32], NDArray[np.float32]],
+    said: SentenceUnits,
+    most: int,
+) -> Iterator[_NextStep]:
+    """Yield the likeliest next actions of each draft."""
+    for row, draft in enumerate(drafts):
+        expected = draft.walk.next_actions()
         tokens, units = allowed_actions(expected, said)
-        if not tokens and not units:
-            return None
-        joint = np.concatenate((scores[tokens], unit_scores[units]))
-        best = int(joint.argmax())
-        log_probability -= float(np.log(np.exp(joint - joint[best]).sum()))
-        if exp(log_probability) < least_confidence:
-            return None
-        is_token = best < len(tokens)
-        number = tokens[best] if is_token else units[best - len(tokens)]
-        action: Action = TOKENS[number] if is_token else number
-        written = network.token(number + 1) if is_token else encoded.taken[number]
-        if not is_token:
-            memory.point(number, expected.first if expected.is_last else number)
-        walk.take(action)
-        actions.append(action)
-    return ParsedPlan(read_actions(actions, said), exp(log_probability))
+        joint = np.concatenate((scores[0][row, tokens], scores[1][row, units]))
+        if not len(joint):
+            continue
+        shifted = joint - joint.max()
+        logs = draft.log_probability + shifted - np.log(np.exp(shifted).sum())
+        for at in np.argsort(-logs, kind="stable")[:most]:
+            is_token = at < len(tokens)
+            unit = None if is_token else units[at - len(tokens)]
+            action: Action = TOKENS[tokens[at]] if unit is None else unit
+            first = expected.first if expected.is_last else unit or 0
+            yield _NextStep(row, action, float(logs[at]), first)
 
 
 def first_forms(network: PointerNetwork, said: SentenceUnits) -> dict[str, float]:
     """Return how likely it is, by form, that the plan of a sentence begins with it."""
     encoded, walk = network.encode(sentence_features(said.units)), GrammarWalk()
     memory, nothing = network.begin(len(said.units)), network.token(0)
-    scores, _ = network.step(encoded, memory, nothing, walk.part_number)
+    scores, _ = network.step(encoded, memory, [nothing], [walk.part_number])
     forms = sorted(walk.next_actions().tokens)
-    joint = scores[[TOKEN_NUMBERS[form] for form in forms]]
+    joint = scores[0, [TOKEN_NUMBERS[form] for form in forms]]
     shares = np.exp(joint - joint.max())
     return dict(zip(forms, (shares / shares.sum()).tolist(), strict=True))

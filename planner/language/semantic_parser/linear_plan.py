@@ -138,6 +138,12 @@ class GrammarWalk:
             return _PART_NUMBERS[now.part, now.slot.kind, now.slot.marker]
         return _PART_NUMBERS[now.part, min(now.depth, 2), now.is_open]
 
+    def fork(self) -> GrammarWalk:
+        """Return a walk that has come as far and goes on by itself."""
+        other = GrammarWalk()
+        other._pending, other._nodes = self._pending.copy(), self._nodes
+        return other
+
     def next_actions(self) -> NextActions:
         """Return what may come next."""
         next_ = self._pending[-1]

@@ -10,7 +10,7 @@ row; those of the units' buckets stay so in memory.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -67,28 +67,32 @@ class SentenceStates:
 
 @dataclass(slots=True)
 class DecoderMemory:
-    """Hold the actions written before: keys and values by decoder layer, what was pointed at."""
+    """Hold, for several rows of actions, what each wrote before and pointed at."""
 
     is_told: NDArray[np.bool_]
-    """(units): whether it was pointed at, or stands in quoted words."""
-    pointed: int | None = None
-    """The unit that was pointed at last."""
-    keys: list[list[Floats]] = field(default_factory=list)
-    values: list[list[Floats]] = field(default_factory=list)
+    """(rows, units): whether it was pointed at, or stands in quoted words."""
+    pointed: NDArray[np.intp]
+    """(rows): the unit that was pointed at last; -1: none."""
+    keys: list[Floats]
+    """By decoder layer: (rows, heads, actions, part)."""
+    values: list[Floats]
 
-    def point(self, unit: int, first: int) -> None:
-        """Keep that a unit was pointed at; ``first``: the first one that is told with it."""
-        self.pointed = unit
-        self.is_told[first : unit + 1] = True
+    def pick(self, rows: Sequence[int]) -> DecoderMemory:
+        """Return the memory of some rows, each as often as it is named."""
+        picked = list(rows)
+        keys, values = ([each[picked] for each in kept] for kept in (self.keys, self.values))
+        return DecoderMemory(self.is_told[picked], self.pointed[picked], keys, values)
 
-    def bias(self, table: Floats) -> Floats:
-        """Return (rows, units) of a table (rows, ``DISTANCES``)."""
-        if self.pointed is None:
-            near = table[:, 2 * FARTHEST + 1, None]
-        else:
-            apart = np.arange(len(self.is_told)) - self.pointed
-            near = table[:, np.clip(apart, -FARTHEST, FARTHEST) + FARTHEST]
-        return as_floats(near + table[:, 2 * FARTHEST + 2, None] * self.is_told)
+    def point(self, row: int, unit: int, first: int) -> None:
+        """Keep that a row pointed at a unit; ``first``: the first one that is told with it."""
+        self.pointed[row] = unit
+        self.is_told[row, first : unit + 1] = True
+
+    def columns(self) -> NDArray[np.intp]:
+        """Return (rows, units): the column of a unit's distance in a table of ``DISTANCES``."""
+        apart = np.arange(self.is_told.shape[1]) - self.pointed[:, None]
+        near = np.clip(apart, -FARTHEST, FARTHEST) + FARTHEST
+        return np.where(self.pointed[:, None] < 0, 2 * FARTHEST + 1, near)
 
 
 def _norm(values: Floats, gain: Floats, shift: Floats) -> Floats:
@@ -98,11 +102,15 @@ def _norm(values: Floats, gain: Floats, shift: Floats) -> Floats:
 
 
 def _attend(query: Floats, key: Floats, value: Floats, bias: Floats | float) -> Floats:
-    """Return (rows, width) of what queries (heads, rows, part) hear."""
-    scores = query @ key.transpose(0, 2, 1) / query.shape[-1] ** 0.5 + bias
+    """Return (…, rows, part) of what queries of that shape hear."""
+    scores = query @ key.swapaxes(-1, -2) / query.shape[-1] ** 0.5 + bias
     shifted = np.exp(scores - scores.max(axis=-1, keepdims=True))
-    joined = (shifted / shifted.sum(axis=-1, keepdims=True)) @ value
-    return as_floats(joined.transpose(1, 0, 2).reshape(query.shape[1], -1))
+    return as_floats((shifted / shifted.sum(axis=-1, keepdims=True)) @ value)
+
+
+def _join_heads(heard: Floats) -> Floats:
+    """Return (rows, width) of (heads, rows, part)."""
+    return heard.transpose(1, 0, 2).reshape(heard.shape[1], -1)
 
 
 def _heads(values: Floats) -> Floats:
@@ -146,13 +154,12 @@ class PointerNetwork:
             name = f"encoder.{number}"
             query, key, value = self._mix(name, states)
             bias = self._m[f"{name}.near.weight"].T[:, apart]
-            states = as_floats(
-                states + self._linear(f"{name}.join", _attend(query, key, value, bias))
-            )
+            heard = _join_heads(_attend(query, key, value, bias))
+            states = as_floats(states + self._linear(f"{name}.join", heard))
             states = self._think(name, states)
         states = self._apply_norm("heard", states)
-        heard = tuple(self._hear(number, states) for number in range(self._decoder))
-        return SentenceStates(states @ self._m["keys.weight"], self._linear("taken", states), heard)
+        told = tuple(self._hear(number, states) for number in range(self._decoder))
+        return SentenceStates(states @ self._m["keys.weight"], self._linear("taken", states), told)
 
     def _linear(self, name: str, values: Floats) -> Floats:
         return as_floats(values @ self._m[f"{name}.weight"] + self._v[f"{name}.bias"])
@@ -180,41 +187,48 @@ class PointerNetwork:
         return as_floats(self._m["tokens.weight"].T[number])
 
     def begin(self, units: int) -> DecoderMemory:
-        """Return the decoder's memory before its first action on a sentence of so many units."""
-        memory = DecoderMemory(np.zeros(units, bool))
-        memory.keys = [[] for _ in range(self._decoder)]
-        memory.values = [[] for _ in range(self._decoder)]
-        return memory
+        """Return the memory of one row before its first action on a sentence of so many units."""
+        width = self._v["norm.weight"].shape[0]
+        empty = [np.zeros((1, HEADS, 0, width // HEADS), np.float32)] * self._decoder
+        return DecoderMemory(np.zeros((1, units), bool), np.full(1, -1), empty, list(empty))
 
     def step(
-        self, encoded: SentenceStates, memory: DecoderMemory, written: Floats, part: int
+        self,
+        encoded: SentenceStates,
+        memory: DecoderMemory,
+        written: Sequence[Floats],
+        parts: Sequence[int],
     ) -> tuple[Floats, Floats]:
-        """Return the tokens' scores and the units' scores of the next action.
+        """Return (rows, tokens) and (rows, units): the scores of each row's next action.
 
         Args:
             encoded: the sentence.
-            memory: of the actions before; this one is added.
-            written: the action before, as ``token`` or ``taken`` gives it.
-            part: of the plan that comes next, by its number.
+            memory: of the actions before; these are added.
+            written: by row the action before, as ``token`` or ``taken`` gives it.
+            parts: by row which part of the plan comes next, by its number.
         """
-        state = as_floats(written + self._m["parts.weight"].T[part])[None]
+        columns, is_told, rows = memory.columns(), memory.is_told, list(parts)
+        state = as_floats(np.stack(written) + self._m["parts.weight"].T[rows])
         for number in range(self._decoder):
             name = f"decoder.{number}"
-            query, key, value = self._mix(name, state)
-            memory.keys[number].append(key)
-            memory.values[number].append(value)
-            count = len(memory.keys[number])
+            query, key, value = (
+                each.transpose(1, 0, 2)[:, :, None] for each in self._mix(name, state)
+            )
+            memory.keys[number] = np.concatenate((memory.keys[number], key), 2)
+            memory.values[number] = np.concatenate((memory.values[number], value), 2)
+            count = memory.keys[number].shape[2]
             apart = np.clip(np.arange(1 - count, 1), -FARTHEST, 0) + FARTHEST
             bias = self._m[f"{name}.near.weight"].T[:, apart][:, None]
-            keys, values = memory.keys[number], memory.values[number]
-            heard = _attend(query, np.concatenate(keys, 1), np.concatenate(values, 1), bias)
-            state = as_floats(state + self._linear(f"{name}.join", heard))
+            heard = _attend(query, memory.keys[number], memory.values[number], bias)
+            state = as_floats(state + self._linear(f"{name}.join", heard.reshape(len(rows), -1)))
             asked = _heads(self._linear(f"{name}.ask", self._apply_norm(f"{name}.norm3", state)))
-            far = memory.bias(self._m[f"{name}.far.weight"].T)[:, None]
-            answer = _attend(asked, *encoded.heard[number], far)
+            table = self._m[f"{name}.far.weight"].T
+            far = as_floats(table[:, columns] + table[:, -1, None, None] * is_told)
+            answer = _join_heads(_attend(asked, *encoded.heard[number], far))
             state = as_floats(state + self._linear(f"{name}.answer", answer))
             state = self._think(name, state)
-        out = as_floats(np.tanh(self._linear("out", self._apply_norm("norm", state))))[0]
-        units = encoded.pointed @ (out @ self._m["point.weight"]) / len(out) ** 0.5
-        units = units + memory.bias(self._m["apart.weight"].T[part][None])[0]
+        out = as_floats(np.tanh(self._linear("out", self._apply_norm("norm", state))))
+        units = out @ self._m["point.weight"] @ encoded.pointed.T / out.shape[1] ** 0.5
+        table = self._m["apart.weight"].T[rows]
+        units = units + np.take_along_axis(table, columns, 1) + table[:, -1:] * is_told
         return self._linear("scores", out), as_floats(units)

@@ -8,11 +8,12 @@ sure of is not offered.
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
 
-from planner.language.catalogue import say
+from planner.language.catalogue import join, say
 from planner.language.grammar.compound_forms import read_hour
 from planner.language.grammar.lexicon import lexicon_of
 from planner.language.grammar.plan_assembly import sentence
@@ -24,13 +25,20 @@ from planner.language.order_sentence import (
     write_order,
 )
 from planner.language.recall import read_span
-from planner.language.semantic_parser.changed_order import CHANGES, change_order, name_pointed
+from planner.language.semantic_parser.changed_order import (
+    CHANGES,
+    change_order,
+    name_pointed,
+    put_first,
+)
+from planner.language.semantic_parser.linear_plan import TOKEN_NUMBERS
 from planner.language.semantic_parser.parser import parse
 from planner.language.semantic_parser.plan_grammar import ALONE
 from planner.language.semantic_parser.plan_steps import StepMaker
 from planner.language.sentence import parse as parse_sentence
 from planner.plan import (
     CONTROL,
+    Bilingual,
     Clarify,
     Code,
     Language,
@@ -48,12 +56,24 @@ from planner.plan import (
 from planner.plan.order_steps import OrderAdd
 
 if TYPE_CHECKING:
-    from planner.language.grammar.context import Context
-    from planner.language.semantic_parser.plan_grammar import LabelledPlan, PlanNode
-    from planner.plan import Bilingual, LastOrder, Vocabulary
+    from collections.abc import Sequence
 
-SURE = 0.3
+    from planner.language.grammar.context import Context
+    from planner.language.semantic_parser.decoding import ParsedPlan
+    from planner.language.semantic_parser.plan_grammar import LabelledPlan, PlanNode
+    from planner.plan import Vocabulary
+
+SURE = 0.15
 """From here on a plan is offered; a person says no to what was not meant."""
+MOST_OFFERED, MOST_TOLD = 3, 250
+"""Plans, and characters of the question about them: nobody hears out more."""
+FAIRLY_SURE = 0.3
+"""From here on where the rules offer a part themselves, and of a plan that names nothing said,
+as ``turn(around)``: gibberish is read so."""
+UNRIVALLED = 0.7
+"""From here on the likeliest plan is offered alone, below it with those that come close."""
+CLOSE = 0.15
+"""Of the likeliest one's confidence: so much another plan needs to be offered beside it."""
 _BEYOND = frozenset({Code.NO_CAPABILITY})
 _DOUBTED = frozenset({Code.AMBIGUOUS, Code.OUT_OF_SCOPE})
 UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _BEYOND | _DOUBTED
@@ -61,21 +81,46 @@ UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _BEY
 SURER = 0.6
 """From here on the reader is believed though a rule speaks against it, and what it takes for a
 question to memory or for talk is answered without a yes: nothing drives for these."""
+_LEAST = dict.fromkeys(_DOUBTED, SURER) | {Code.NEGATED: FAIRLY_SURE, Code.CONDITIONAL: 0.25}
+"""From here on where the rules say why they won't."""
 COMMANDS: dict[str, tuple[str, str]] = {
     "slower": ("slow down", "慢一点"),
     "faster": ("faster", "快一点"),
     "resume": ("go on", "继续"),
     "pause": ("pause for a moment", "暂停一下"),
+    "cancel": ("cancel the goal", "取消这个任务"),
     "fact": ("remember that {words}", "记住{words}"),
-    "name_here": ("this place is called {words}", "这里叫{words}"),
+    "forget": ("forget about {words}", "忘掉关于{words}的事"),
+    "name_here": ("call this place {words}", "把这里叫做{words}"),
+    "here": ("you are in the {words}", "你在{words}"),
 }
 """What the planner itself does upon a yes, in words that it reads."""
+_TOLD = COMMANDS | {"here": ("take it that I am in the {words}", "当作我在{words}")}
+"""In which words a person is asked for that yes."""
 _HANGING = CONTROL | {"wait_for", "wait"}
 """Steps that wait for something, as the words "until" and "when" ask for."""
 _ROLES = {PlanRole.AFTER: "order.after", PlanRole.INSTEAD: "order.instead"}
 _ORDERS = frozenset({"at"} | {name for name in ALONE if name.startswith("order")})
 """Forms about standing orders."""
+_NEVER_DENIALS = frozenset({"at", "orders", "order_move", "order_resume"})
+"""Of these: what a sentence with a denial hardly ever asks for."""
 _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
+
+
+@dataclass(frozen=True, slots=True)
+class _UnreadSentence:
+    """Hold a sentence that no rule reads, and what the rules say of it."""
+
+    told: Clarify | Refuse
+    text: str
+    vocabulary: Vocabulary
+    language: Language
+    context: Context
+
+    @property
+    def has_offer(self) -> bool:
+        """Return whether the rules offer a part of it."""
+        return isinstance(self.told, Clarify) and bool(self.told.options)
 
 
 def offer_plan(
@@ -92,84 +137,136 @@ def offer_plan(
     """
     if not isinstance(told, Clarify | Refuse) or told.code not in UNREAD:
         return None
-    read = parse(text, vocabulary, least_confidence=SURE)
-    if read is None:
+    readings = parse(text, vocabulary, most=MOST_OFFERED, least_confidence=SURE * CLOSE)
+    if not readings:
         return None
-    node, is_sure = read.plan[0], read.confidence >= SURER
-    if told.code in _DOUBTED and not is_sure:
+    surest, others = readings[0], readings[1:]
+    said = _UnreadSentence(told, text, vocabulary, language, context)
+    least = FAIRLY_SURE if said.has_offer else _LEAST.get(told.code, SURE)
+    if surest.confidence < least:
         return None
-    has_offer = isinstance(told, Clarify) and bool(told.options)
-    if node.form in _TALK:
-        # What is beyond the robot keeps what the rules say of it, and the part that they offer.
-        is_told = told.code in _BEYOND | _DOUBTED or (told.code is Code.NEGATED and not has_offer)
-        if not is_sure or is_told:
-            return None
-        # Nothing is asked, so nothing waits for an answer.
-        return Refuse(code=Code.NOT_UNDERSTOOD, reason=say(_TALK[node.form]))
-    if told.code in _BEYOND and has_offer and node.form not in CHANGES:  # a part of it is offered
+    if surest.plan[0].form in _TALK:
+        return _tell_talk(said, surest)
+    offer = _offer_reading(said, surest)
+    if not isinstance(offer, StepPlan) and surest.confidence < UNRIVALLED:
+        close = [each for each in others if each.confidence >= CLOSE * surest.confidence]
+        return _offer_several(said, [offer, *(_offer_reading(said, each) for each in close)])
+    return offer
+
+
+def _offer_several(
+    said: _UnreadSentence, offers: Sequence[StepPlan | Clarify | None]
+) -> Clarify | None:
+    """Return the question which of several plans is meant; the first offer's where there is one."""
+    asked = [each for each in offers if isinstance(each, Clarify)]
+    shown: list[Option] = []
+    for button in (button for each in asked for button in each.options):
+        told = {each.label.en for each in shown} | {each.label.zh for each in shown}
+        if not told & {button.label.en, button.label.zh}:
+            shown.append(button)
+    for count in range(min(len(shown), MOST_OFFERED), 1, -1):
+        ways = [
+            say(f"grammar.way_{at}", order=each.label) for at, each in enumerate(shown[:count], 1)
+        ]
+        question = join((say("grammar.guessed_several"), *ways))
+        if len(question.of(said.language)) <= MOST_TOLD:
+            return Clarify(
+                code=Code.NOT_UNDERSTOOD, question=question, options=tuple(shown[:count])
+            )
+    return next((each for each in asked if each.options), *offers[:1])
+
+
+def _tell_talk(said: _UnreadSentence, read: ParsedPlan) -> Refuse | None:
+    """Return that a sentence is taken for talk or is beyond the robot; None: the rules' words stay.
+
+    Nothing is asked, so nothing waits for an answer.
+    """
+    code = said.told.code
+    is_told = code in _BEYOND | _DOUBTED or (code is Code.NEGATED and not said.has_offer)
+    if read.confidence < SURER or is_told:
         return None
-    if node.form in COMMANDS and is_sure:
-        return _offer_command(node, language, told.code)
+    return Refuse(code=Code.NOT_UNDERSTOOD, reason=say(_TALK[read.plan[0].form]))
+
+
+def _offer_reading(said: _UnreadSentence, read: ParsedPlan) -> StepPlan | Clarify | None:
+    """Return what is laid before a person of one reading; None: what the rules say stays."""
+    told, node, is_sure = said.told, read.plan[0], read.confidence >= SURER
+    context = said.context
+    is_named = any(_said_words(each) for each in read.plan)
+    if node.form in _TALK or (not is_named and read.confidence < FAIRLY_SURE):
+        return None
+    if told.code in _BEYOND and said.has_offer and node.form not in CHANGES:
+        return None  # a part of it is offered
+    if told.code is Code.NEGATED and not is_sure and node.form in COMMANDS.keys() | _NEVER_DENIALS:
+        return None
+    if node.form in COMMANDS:
+        return _offer_command(node, said)
     # Where something else is meant, the rules' own offer of a part of it would be silly.
     without_offer = told.model_copy(update={"options": ()}) if isinstance(told, Clarify) else None
     if node.form in _ORDERS:
-        if told.code is Code.NEGATED and node.form == "at" and not is_sure:
-            return without_offer
-        offer = _offer_standing_order(node, text, vocabulary, language, context)
-        return offer or without_offer
-    plan = _make_steps(read.plan, vocabulary, language, context.newest)
-    if plan is None or check_plan(plan, vocabulary, context.runnable, context.blind) is not None:
+        return _offer_standing_order(node, said) or without_offer
+    plan = _make_steps(read.plan, said)
+    if (
+        plan is None
+        or check_plan(plan, said.vocabulary, context.runnable, context.blind) is not None
+    ):
         return without_offer
     if _lacks_condition(plan, told.code) or _is_doubted(plan, told, is_sure=is_sure):
         return None
-    return _offer_steps(plan, text, vocabulary, language, at_once=is_sure)
+    return _offer_steps(plan, said, at_once=is_sure)
 
 
 def _offer_steps(
-    plan: StepPlan, text: str, vocabulary: Vocabulary, language: Language, *, at_once: bool
+    plan: StepPlan, said: _UnreadSentence, *, at_once: bool
 ) -> StepPlan | Clarify | None:
     """Return the question about a plan; a mere question to memory itself where it is sure."""
     if at_once and all(isinstance(step, Recall) for step in plan.steps):
         return plan
-    if _places_of(plan) & denied_places(text, vocabulary):
+    if _places_of(plan) & denied_places(said.text, said.vocabulary):
         return None
-    label = _tell(plan, vocabulary)
-    return _ask_for(Option(label=label, text=label.of(language)[:2000], plan=plan))
+    label = _tell(plan, said.vocabulary)
+    return _ask_for(Option(label=label, text=label.of(said.language)[:2000], plan=plan))
 
 
-def _offer_command(node: PlanNode, language: Language, code: Code) -> Clarify | None:
+def _offer_command(node: PlanNode, said: _UnreadSentence) -> Clarify | None:
     """Return the question about what the planner itself does; None where it reads it not so.
 
     A bare command behind a denial ("don't slow down") is none.
     """
-    if code is Code.NEGATED and not any(node.slots):
+    if said.told.code is Code.NEGATED and not any(node.slots):
         return None
-    words = " ".join(value[0] for value in node.slots if value)
-    command = COMMANDS[node.form][language is Language.ZH].format(words=words)
-    is_read = parse_sentence(command).intent is not None
-    return _ask_for(Option(label=say_same(command), text=command)) if is_read else None
+    named = " ".join(value[0] for value in node.slots if value)
+    names = say_same(named)
+    if named in said.vocabulary.by_id:
+        names = said.vocabulary.name(named)
+    command, label = (
+        Bilingual(en=en.format(words=names.en), zh=zh.format(words=names.zh))
+        for en, zh in (COMMANDS[node.form], _TOLD[node.form])
+    )
+    text = command.of(said.language)
+    is_read = parse_sentence(text).intent is not None
+    return _ask_for(Option(label=label, text=text)) if is_read else None
 
 
-def _offer_standing_order(
-    node: PlanNode, text: str, vocabulary: Vocabulary, language: Language, context: Context
-) -> Clarify | None:
+def _offer_standing_order(node: PlanNode, said: _UnreadSentence) -> Clarify | None:
     """Return the question about a standing order whose time the clock reads; None: it doesn't.
 
     Its steps go with the button: only the time is read again.
     """
+    text, vocabulary, context = said.text, said.vocabulary, said.context
     words = tuple(value[0] if value else "" for value in node.slots)
     if any(re.search(rf"{re.escape(each)}[:.]?\d", text, re.IGNORECASE) for each in words if each):
         return None  # of "at 12:10" the reader took "at 12"
     if node.form != "at":
         which, due = (*words, "", "")[:2]
-        return offer_kept(node.form, which, due, chinese=language is Language.ZH)
-    steps = _make_steps(node.blocks[0], vocabulary, language)
+        return offer_kept(node.form, which, due, chinese=said.language is Language.ZH)
+    steps = _make_steps(node.blocks[0], said)
     if steps is None or _places_of(steps) & denied_places(text, vocabulary):
         return None
     if check_plan(steps, vocabulary, context.runnable, context.blind) is not None:
         return None
     try:
-        step = OrderAdd(due=words[0], order=_tell(steps, vocabulary).of(language))
+        step = OrderAdd(due=words[0], order=_tell(steps, vocabulary).of(said.language))
     except ValidationError:
         return None
     told = write_order(step)
@@ -194,13 +291,24 @@ def _places_of(plan: StepPlan) -> set[str]:
     return {place for node in list_nodes(plan.steps) for place in places_of(node.step)}
 
 
-def _make_steps(
-    plan: LabelledPlan, vocabulary: Vocabulary, language: Language, newest: LastOrder | None = None
-) -> StepPlan | None:
+def _said_words(node: PlanNode) -> bool:
+    """Return whether a node, or one that it holds, names a place, an amount or words."""
+    held = (*node.condition, *(each for block in node.blocks for each in block))
+    slots = any(text not in TOKEN_NUMBERS for value in node.slots for text in value)
+    return slots or any(map(_said_words, held))
+
+
+def _make_steps(plan: LabelledPlan, said: _UnreadSentence) -> StepPlan | None:
+    newest, now = said.context.newest, said.context.now
     if plan[0].form in CHANGES:
         return change_order(plan[0], newest)
-    maker = StepMaker(vocabulary, language, read_hour, read_span)
-    return maker.plan(name_pointed(plan, newest))
+
+    def read_coming(words: str) -> str | None:
+        return read_hour(words, now)
+
+    maker = StepMaker(said.vocabulary, said.language, read_coming, read_span)
+    made = maker.plan(name_pointed(plan, newest))
+    return put_first(made, newest) if made is not None and plan[0].form == "first" else made
 
 
 def _tell(plan: StepPlan, vocabulary: Vocabulary) -> Bilingual:

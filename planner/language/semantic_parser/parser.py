@@ -75,21 +75,26 @@ def names_of(vocabulary: Vocabulary) -> Gazetteer:
 
 
 def parse(
-    sentence: str, vocabulary: Vocabulary, path: Path = MODEL, least_confidence: float = 0.0
-) -> ParsedPlan | None:
-    """Return the plan that a sentence may mean; None where it is not read.
+    sentence: str,
+    vocabulary: Vocabulary,
+    path: Path = MODEL,
+    most: int = 1,
+    least_confidence: float = 0.0,
+) -> tuple[ParsedPlan, ...]:
+    """Return the plans that a sentence may mean, the surest first; none where it is not read.
 
     Args:
         sentence: as it was said.
         vocabulary: of the site; a plan names its places by their ids.
         path: of the model.
+        most: so many plans at most.
         least_confidence: nothing is read with less.
     """
-    from planner.language.semantic_parser.decoding import decode_plan
+    from planner.language.semantic_parser.decoding import decode_plans
 
     said = cut_units(sentence, names_of(vocabulary))
     network = load_network(path) if 0 < len(said.units) <= MAX_UNITS else None
-    return decode_plan(network, said, least_confidence) if network is not None else None
+    return decode_plans(network, said, most, least_confidence) if network is not None else ()
 
 
 @lru_cache(maxsize=64)

@@ -57,7 +57,9 @@ from planner.plan import (
 if TYPE_CHECKING:
     from planner.plan.steps import Condition, Span
 
-_ROLES = {"after": PlanRole.AFTER, "instead": PlanRole.INSTEAD, "slowly": PlanRole.NEW}
+_ROLES = {"after": PlanRole.AFTER, "instead": PlanRole.INSTEAD} | dict.fromkeys(
+    ("first", "slowly"), PlanRole.NEW
+)
 _TURNS = {"left": pi / 2, "right": -pi / 2, "around": pi, "full": 2 * pi}
 _LITTLE = {SlotKind.ANGLE: radians(30.0), SlotKind.LENGTH: 0.2, SlotKind.DURATION: 30.0}
 _PERSON = "person"

@@ -39,7 +39,7 @@ def told(label: str, language: str = "en") -> str | None:
         ('follow("me", for 5 min)', "follow the person for 5 min", None),
         (
             'if check("Dad", in hall) { home } else { wait(2 min) }',
-            "if I see in the hall that yes, “Dad?”: go home; otherwise: wait 2 min",
+            "if the answer to “Dad?” in the hall is yes: go home; otherwise: wait 2 min",
             None,
         ),
         (

@@ -12,6 +12,7 @@ from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Submitted
 from planner.mission.follow_up import LEANS_S
+from planner.mission.open_questions import find_offered_plan
 from planner.mission.reducer import advance
 from planner.mission.state import MissionState
 from planner.plan import (
@@ -28,6 +29,7 @@ from planner.plan import (
     Option,
     Patrol,
     Say,
+    StepPlan,
     say_same,
 )
 from tests.planner.mission.leaning import (
@@ -149,7 +151,9 @@ def test_the_goal_keeps_both_what_was_said_and_what_it_means() -> None:
     assert given.changed == ChangedOrder(steps=(GoTo(place="bedroom"),))
 
 
-@pytest.mark.parametrize("said", ["the second one", "the study, please", "the study"])
+@pytest.mark.parametrize(
+    "said", ["the second one", "number two", "2", "第二个", "the study, please", "the study"]
+)
 def test_an_order_that_a_question_offers_is_chosen_aloud(said: str) -> None:
     text = "go to the kitchen or the study"
     book, _ = advance(BARE, Submitted("g0", text, Language.EN), NOW_S)
@@ -159,6 +163,19 @@ def test_an_order_that_a_question_offers_is_chosen_aloud(said: str) -> None:
     book, _ = advance(book, Planned("g0", asks, None, TAG), NOW_S)
     assert means(book, said, "go to the study")
     assert changed_by(book, "the third one") is None
+
+
+@pytest.mark.parametrize("said", ["the second one", "option 2", "第二个", "go to the study"])
+def test_of_plans_laid_side_by_side_the_one_that_is_named_is_done_as_it_stands(said: str) -> None:
+    book, _ = advance(BARE, Submitted("g0", "study or so", Language.EN), NOW_S)
+    options = tuple(Option(text=f"go to the {place}", label=say_same(f"go to the {place}"),
+                           plan=StepPlan(steps=(GoTo(place=place),)))
+                    for place in ("kitchen", "study"))  # fmt: skip
+    asks = Clarify(code=Code.NOT_UNDERSTOOD, question=say_same("Which?"), options=options)
+    book, _ = advance(book, Planned("g0", asks, None, TAG), NOW_S)
+    asking = book.missions["g0"]
+    assert find_offered_plan(asking, said) == options[1].plan
+    assert find_offered_plan(asking, "the third one") is None
 
 
 DRIVES = order_under_way(

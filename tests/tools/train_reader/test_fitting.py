@@ -40,14 +40,14 @@ def test_the_fitted_network_scores_alike_in_numpy_and_is_fitted_alike_again(tmp_
     for action, (tokens, units), wanted in zip(
         example.actions, example.allowed, logits, strict=True
     ):
-        scores, unit_scores = reader.step(encoded, memory, written, walk.part_number)
-        assert scores[tokens] == pytest.approx(wanted[tokens], abs=0.15)
+        scores, unit_scores = reader.step(encoded, memory, [written], [walk.part_number])
+        assert scores[0, tokens] == pytest.approx(wanted[tokens], abs=0.15)
         pointed = [len(TOKENS) + unit for unit in units]
-        assert unit_scores[units] == pytest.approx(wanted[pointed], abs=0.15)
+        assert unit_scores[0, units] == pytest.approx(wanted[pointed], abs=0.15)
         expected = walk.next_actions()
         walk.take(action)
         if isinstance(action, int):
-            memory.point(action, expected.first if expected.is_last else action)
+            memory.point(0, action, expected.first if expected.is_last else action)
             written = encoded.taken[action]
         else:
             written = reader.token(TOKEN_NUMBERS[action] + 1)

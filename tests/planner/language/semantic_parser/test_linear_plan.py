@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from random import Random
 from typing import TypeVar
@@ -12,7 +13,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from planner.language.semantic_parser.decoding import allowed_actions, decode_plan
+from planner.language.semantic_parser.decoding import allowed_actions, decode_plans
 from planner.language.semantic_parser.linear_plan import (
     TOKENS,
     Action,
@@ -81,6 +82,8 @@ def drawn(kind: type[N], seed: int) -> N:
     )
 
 
+ROUNDED = 1e-5
+"""By so much a confidence may differ with the number of drafts that are scored together."""
 _WORDS = ("kitchen", "the hall", "厨房", "five minutes", "90 degrees", "twice", "“now”", '"', "2 m")
 
 
@@ -90,27 +93,37 @@ _WORDS = ("kitchen", "the hall", "厨房", "five minutes", "90 degrees", "twice"
 def test_any_weights_write_a_plan_of_what_the_sentence_holds(seed: int, words: list[str]) -> None:
     network = drawn(PointerNetwork, seed)
     said = cut_units(" ".join(words), NAMES)
-    parsed = decode_plan(network, said)
-    if parsed is not None:
+    found = decode_plans(network, said, most=3)
+    sureness = [each.confidence for each in found]
+    assert sureness == sorted(sureness, reverse=True)
+    assert len({each.plan for each in found}) == len(found) <= 3
+    for parsed in found:
         assert 0.0 <= parsed.confidence <= 1.0
         assert parse_plan(render_plan(parsed.plan)) == parsed.plan
         write_actions(parsed.plan, said)
 
 
 @settings(max_examples=40, deadline=None)
-@given(st.integers(0, 9), st.lists(st.sampled_from(_WORDS), min_size=1), st.floats(0.0, 1.0))
+@given(
+    st.integers(0, 9),
+    st.lists(st.sampled_from(_WORDS), min_size=1),
+    st.floats(0.0, 1.0),
+    st.integers(1, 4),
+)
 def test_a_reading_that_is_less_sure_than_asked_is_none_and_ends_early(
-    seed: int, words: list[str], least: float
+    seed: int, words: list[str], least: float, most: int
 ) -> None:
     network = drawn(_CountingNetwork, seed)
     network.steps = 0
     said = cut_units(" ".join(words[:12]), NAMES)
-    whole = decode_plan(network, said)
+    whole = decode_plans(network, said, most)
     in_full, network.steps = network.steps, 0
-    sure = whole if whole is not None and whole.confidence >= least else None
-    assert decode_plan(network, said, least) == sure
+    found = decode_plans(network, said, most, least)
+    sure = [each.plan for each in whole if each.confidence > least + ROUNDED]
+    assert [each.plan for each in found][: len(sure)] == sure
+    assert all(each.confidence >= least for each in found)
     assert network.steps <= in_full
-    assert decode_plan(network, said, 1.5) is None
+    assert decode_plans(network, said, most, 1.5) == ()
     assert network.steps <= in_full + 1, "the first action ends what can't be sure enough"
 
 
@@ -120,10 +133,14 @@ class _CountingNetwork(PointerNetwork):
     steps = 0
 
     def step(
-        self, encoded: SentenceStates, memory: DecoderMemory, written: Values, part: int
+        self,
+        encoded: SentenceStates,
+        memory: DecoderMemory,
+        written: Sequence[Values],
+        parts: Sequence[int],
     ) -> tuple[Values, Values]:
         self.steps += 1
-        return super().step(encoded, memory, written, part)
+        return super().step(encoded, memory, written, parts)
 
 
 def test_random_walks_through_the_grammar_end_in_plans() -> None:

@@ -7,7 +7,7 @@ from zlib import crc32
 
 import pytest
 
-from planner.language.semantic_parser.decoding import decode_plan
+from planner.language.semantic_parser.decoding import decode_plans
 from planner.language.semantic_parser.model_file import ModelFileError, read_model, write_model
 from planner.language.semantic_parser.parser import load_network
 from planner.language.semantic_parser.units import Gazetteer, cut_units
@@ -26,7 +26,7 @@ def model(tmp_path: Path) -> Path:
 def test_the_same_weights_make_the_same_file(model: Path, tmp_path: Path) -> None:
     write_model(draw_weights(1), tmp_path / "other.bin")
     assert model.read_bytes() == (tmp_path / "other.bin").read_bytes()
-    assert decode_plan(read_model(model), SAID) == decode_plan(read_model(model), SAID)
+    assert decode_plans(read_model(model), SAID) == decode_plans(read_model(model), SAID)
 
 
 def test_a_missing_file_is_told(tmp_path: Path) -> None:

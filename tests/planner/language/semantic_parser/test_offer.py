@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
+
 import pytest
 
 from planner.language.grammar.context import Context
 from planner.language.readers import OrderWords, read_order
 from planner.language.schedule import ScheduleCommand
+from planner.language.semantic_parser.offer import MOST_OFFERED
 from planner.language.sentence import parse
 from planner.plan import (
     EVERY_KIND,
     AnswerPlan,
     Clarify,
+    Language,
     Plan,
     Refuse,
     StepPlan,
+    WaitFor,
     list_nodes,
     places_of,
 )
@@ -108,6 +113,41 @@ def test_a_standing_order_is_offered_as_the_clock_reads_it_or_not(text: str) -> 
         assert button.plan is not None
         assert isinstance(kept, ScheduleCommand)
         assert kept.problem is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "see about the cat, kitchen I think",
+        "你去卧室瞅瞅老头子醒了没，醒了就喊他吃饭",
+    ],
+)
+def test_what_may_mean_several_orders_is_a_choice_of_plans_told_in_words(text: str) -> None:
+    asked = read(text)
+    assert isinstance(asked, Clarify)
+    assert 2 <= len(asked.options) <= MOST_OFFERED
+    for language in Language:
+        told = [button.label.of(language) for button in asked.options]
+        assert len(set(told)) == len(told)
+        assert all(words in asked.question.of(language) for words in told)
+    assert all(button.plan is not None for button in asked.options)
+
+
+@pytest.mark.parametrize("text", ["zwei dingse flumpen", "天地玄黄", "qwertz uiop", "12345", "hmm"])
+def test_nothing_is_offered_for_gibberish(text: str) -> None:
+    assert getattr(read(text), "options", ()) == ()
+
+
+def test_a_bare_hour_of_a_wait_is_the_one_that_comes_next() -> None:
+    words = "if you would be so kind, stay in the kitchen until half past four"
+    for hour, meant in ((2, "04:30"), (10, "16:30"), (17, "04:30")):
+        now = datetime(2026, 5, 4, hour, 10, tzinfo=UTC)
+        context = CONTEXT.model_copy(update={"now": now})
+        asked = read_order(OrderWords(parse(words), WORLD.vocabulary, context)).plan
+        assert isinstance(asked, Clarify)
+        plans = [button.plan for button in asked.options if button.plan is not None]
+        steps = [node.step for plan in plans for node in list_nodes(plan.steps)]
+        assert {step.time for step in steps if isinstance(step, WaitFor)} == {meant}
 
 
 def test_a_sentence_of_any_kind_moves_nothing_by_the_learned_reader() -> None:
