@@ -329,8 +329,10 @@ def _conclude(goal: dict[str, Any], language: str) -> int:
         if line:
             print(f"  {line}")
     plan = goal.get("plan") or {}
-    for option in plan.get("options") or []:
-        print(f"    - {option if isinstance(option, str) else option.get('text', option)}")
+    options = plan.get("options") or []
+    for number, option in enumerate(options, 1):
+        mark = f"{number}." if len(options) > 1 else "-"
+        print(f"    {mark} {option if isinstance(option, str) else option.get('text', option)}")
     if hint := how_to_answer(goal, language):
         print(f"  {hint}")
     return EXIT.get(str(goal["state"]), EXIT_WAITING)

@@ -95,7 +95,7 @@ def table(name: str, brain: str, verdicts: Sequence[SentenceVerdict], left: int 
     rows += ["", f"seconds a sentence: p50 {p50 / 1e3:.4f}, p99 {p99 / 1e3:.4f}"]
     offered = [verdict.after_yes for verdict in verdicts if verdict.after_yes is not None]
     if offered:
-        told = f"{sum(offered)} of {len(offered)} would be right after a yes to the one offer"
+        told = f"{sum(offered)} of {len(offered)} would be right by one of the offers"
         rows += [f"of those not right: {told}"]
     rows += _model_rows(verdicts)
     faults = [verdict for verdict in verdicts if not verdict.right]

@@ -35,7 +35,7 @@ class SentenceVerdict:
     calls: int = 0
     tokens: int = 0
     after_yes: bool | None = None
-    """Whether a yes to the one offer would have been right; None: nothing was offered, or a model
+    """Whether one of the plans offered would have been right; None: nothing was offered, or a model
     would have to be asked."""
     needs_yes: bool | None = None
     """Whether the guard would have a person asked before a model's plan is walked; None: it holds
@@ -113,11 +113,13 @@ async def _one(
     verdict = judge(case, thought.plan, world, clock() - began, thought.calls, thought.tokens)
     verdict = replace(verdict, needs_yes=_needs_yes(thought, asked))
     options = thought.plan.options if isinstance(thought.plan, Clarify) else ()
-    if verdict.right or len(options) != 1 or not thought.by_grammar:
+    if verdict.right or not options or not thought.by_grammar:
         return verdict
-    laid, text = options[0].plan, options[0].text
-    taken = laid or (await brain.think(asked.model_copy(update={"text": text}))).plan
-    return replace(verdict, after_yes=judge(case, taken, world).right)
+    taken = [
+        each.plan or (await brain.think(asked.model_copy(update={"text": each.text}))).plan
+        for each in options
+    ]
+    return replace(verdict, after_yes=any(judge(case, each, world).right for each in taken))
 
 
 def request_of(case: Case, world: EvalWorld, goal: str) -> ThinkRequest:
