@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
@@ -107,7 +108,7 @@ _NEVER_DENIALS = frozenset({"at", "orders", "order_move", "order_resume"})
 _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _UnreadSentence:
     """Hold a sentence that no rule reads, and what the rules say of it."""
 
@@ -116,6 +117,11 @@ class _UnreadSentence:
     vocabulary: Vocabulary
     language: Language
     context: Context
+
+    @cached_property
+    def denied(self) -> frozenset[str]:
+        """Return the places that it denies."""
+        return frozenset(denied_places(self.text, self.vocabulary))
 
     @property
     def has_offer(self) -> bool:
@@ -222,7 +228,7 @@ def _offer_steps(
     """Return the question about a plan; a mere question to memory itself where it is sure."""
     if at_once and all(isinstance(step, Recall) for step in plan.steps):
         return plan
-    if _places_of(plan) & denied_places(said.text, said.vocabulary):
+    if _places_of(plan) & said.denied:
         return None
     label = _tell(plan, said.vocabulary)
     return _ask_for(Option(label=label, text=label.of(said.language)[:2000], plan=plan))
@@ -261,7 +267,7 @@ def _offer_standing_order(node: PlanNode, said: _UnreadSentence) -> Clarify | No
         which, due = (*words, "", "")[:2]
         return offer_kept(node.form, which, due, chinese=said.language is Language.ZH)
     steps = _make_steps(node.blocks[0], said)
-    if steps is None or _places_of(steps) & denied_places(text, vocabulary):
+    if steps is None or _places_of(steps) & said.denied:
         return None
     if check_plan(steps, vocabulary, context.runnable, context.blind) is not None:
         return None
