@@ -155,7 +155,8 @@ def offer_plan(
         return _tell_talk(said, surest)
     offer = _offer_reading(said, surest)
     if not isinstance(offer, StepPlan) and surest.confidence < UNRIVALLED:
-        close = [each for each in others if each.confidence >= CLOSE * surest.confidence]
+        least = CLOSE * surest.confidence if isinstance(offer, Clarify) else SURE
+        close = [each for each in others if each.confidence >= least]
         return _offer_several(said, [offer, *(_offer_reading(said, each) for each in close)])
     return offer
 
