@@ -100,10 +100,9 @@ def _widen_patrol(last: LastOrder, place: str) -> Steps | None:
 
 
 def _instead(last: LastOrder, change: Change) -> Steps | None:
-    if change.place is None and change.thing is not None:
-        return put_name(last.steps, last.thing, change.thing)
     if change.place is None:
-        return _put_person_or_words(last, change)
+        thing = change.thing and put_name(last.steps, last.thing, change.thing)
+        return thing or _put_person_or_words(last, change)
     if change.who:
         return _correct_whereabouts(last, change)
     if change.inner is not None and change.inner not in places_inside(last.names, change.place):
@@ -234,8 +233,7 @@ def _rooms_sought(last: LastOrder) -> _Stops | None:
 
 def _join(last: LastOrder, stops: _Stops) -> Steps:
     """Return a round of these stops, and its way home."""
-    only = stops[0][1][0]
-    if isinstance(only, Patrol):
+    if isinstance(only := stops[0][1][0], Patrol):
         steps: Steps = (only.model_copy(update={"places": tuple(stop for stop, _ in stops)}),)
     else:
         steps = tuple(step for _, each in stops for step in each)

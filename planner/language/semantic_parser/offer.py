@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from pydantic import ValidationError
@@ -108,7 +108,7 @@ _NEVER_DENIALS = frozenset({"at", "orders", "order_move", "order_resume"})
 _TALK = {"none": "grammar.guessed_talk", "refuse": "grammar.guessed_beyond"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class _UnreadSentence:
     """Hold a sentence that no rule reads, and what the rules say of it."""
 
@@ -117,11 +117,6 @@ class _UnreadSentence:
     vocabulary: Vocabulary
     language: Language
     context: Context
-
-    @cached_property
-    def denied(self) -> frozenset[str]:
-        """Return the places that it denies."""
-        return frozenset(denied_places(self.text, self.vocabulary))
 
     @property
     def has_offer(self) -> bool:
@@ -229,7 +224,7 @@ def _offer_steps(
     """Return the question about a plan; a mere question to memory itself where it is sure."""
     if at_once and all(isinstance(step, Recall) for step in plan.steps):
         return plan
-    if _places_of(plan) & said.denied:
+    if _places_of(plan) & _denied_in(said.text, said.vocabulary):
         return None
     label = _tell(plan, said.vocabulary)
     return _ask_for(Option(label=label, text=label.of(said.language)[:2000], plan=plan))
@@ -268,7 +263,7 @@ def _offer_standing_order(node: PlanNode, said: _UnreadSentence) -> Clarify | No
         which, due = (*words, "", "")[:2]
         return offer_kept(node.form, which, due, chinese=said.language is Language.ZH)
     steps = _make_steps(node.blocks[0], said)
-    if steps is None or _places_of(steps) & said.denied:
+    if steps is None or _places_of(steps) & _denied_in(text, vocabulary):
         return None
     if check_plan(steps, vocabulary, context.runnable, context.blind) is not None:
         return None
@@ -292,6 +287,12 @@ def _is_doubted(plan: StepPlan, told: Clarify | Refuse, *, is_sure: bool) -> boo
         return not all(isinstance(step, Recall) for step in plan.steps)
     denied = told.code is Code.NEGATED and not _places_of(plan)
     return not is_sure and (told.code in _BEYOND or denied)
+
+
+@lru_cache(maxsize=4)
+def _denied_in(text: str, vocabulary: Vocabulary) -> frozenset[str]:
+    """Return the places that a sentence denies; once for all its readings."""
+    return frozenset(denied_places(text, vocabulary))
 
 
 def _places_of(plan: StepPlan) -> set[str]:
