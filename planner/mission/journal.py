@@ -1,7 +1,7 @@
 """Keep missions on disk: every transition appended, the newest record of each beside it.
 
-SQLAlchemy Core; SQLite with WAL and synchronous=FULL by default, any other database by URL. One
-transaction per entry, so that a crash at any instant leaves each mission as one entry wrote it.
+SQLAlchemy Core; SQLite with WAL and synchronous=FULL. One transaction per entry, so that a crash at
+any instant leaves each mission as one entry wrote it.
 Knows no event loop: ``JournalWriter`` calls it from its one thread.
 """
 
@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import json
 import logging
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 import sqlalchemy as sa
 from pydantic import ValidationError
-from sqlalchemy.dialects import postgresql, sqlite
+from sqlalchemy.dialects import sqlite
 
 from planner.mission import goal_history
 from planner.mission.effects import Journal
@@ -98,12 +97,7 @@ class MissionJournal:
         self._engine = sa.create_engine(url)
         self._queue: tuple[str, ...] | None = None  # as it is on disk; None: not known
         self._ended = 0  # since the journal was last pruned
-        self._put_mission = _upsert_of(_missions, self._engine.dialect.name)
-        self._put_row = _upsert_of(goal_history.rows, self._engine.dialect.name)
-        self._put_fact = _upsert_of(_facts, self._engine.dialect.name)
-        self._put_key = _upsert_of(_keys, self._engine.dialect.name, _keys.c.key)
-        if self._engine.dialect.name == "sqlite":
-            sa.event.listen(self._engine, "connect", _sqlite_pragmas)
+        sa.event.listen(self._engine, "connect", _sqlite_pragmas)
         try:
             _meta.create_all(self._engine)
             goal_history.meta.create_all(self._engine)
@@ -130,7 +124,8 @@ class MissionJournal:
                 queue = entry.queue
             for key in keys:
                 # A request that got a 503 for a slow disk comes again, with its key, as a new goal.
-                self._put_key(connection, {"key": key.key, "body": key.body, "goal": key.goal})
+                row = {"key": key.key, "body": key.body, "goal": key.goal}
+                connection.execute(_PUT_KEY, row)
         self._queue = queue
         self._ended += sum(m.state in ENDED for entry in entries for m in entry.missions)
         if self._ended >= PRUNE_EVERY:
@@ -206,10 +201,10 @@ class MissionJournal:
             connection.execute(_ADD_TRANSITION, row)
             ended = mission.state in ENDED
             newest = {"id": mission.id, "order": mission.order, "ended": ended, "record": record}
-            self._put_mission(connection, newest)
-            self._put_row(connection, goal_history.row_of(mission))
+            connection.execute(_PUT_MISSION, newest)
+            connection.execute(_PUT_ROW, goal_history.row_of(mission))
         if entry.queue != before:
-            self._put_fact(connection, {"name": "queue", "value": json.dumps(entry.queue)})
+            connection.execute(_PUT_FACT, {"name": "queue", "value": json.dumps(entry.queue)})
 
     def _add_missing_rows(self) -> None:
         """Make the rows of goals that a former program wrote, once."""
@@ -218,7 +213,7 @@ class MissionJournal:
             missing = sa.select(_missions.c.record).where(_missions.c.id.not_in(listed))
             for record in connection.execute(missing).scalars().all():
                 with suppress(ValidationError):  # what is malformed is told by load
-                    self._put_row(connection, goal_history.row_of(read_mission(record)))
+                    connection.execute(_PUT_ROW, goal_history.row_of(read_mission(record)))
 
     def _mission(self, record: str) -> Mission:
         try:
@@ -242,51 +237,22 @@ class MissionJournal:
                 raise ConfigError("journal_version", detail)
 
 
-_Put = Callable[[sa.Connection, dict[str, object]], object]
-
-# Built once: putting a statement together costs as much as running it.
-_ADD_TRANSITION = sa.insert(_transitions)
-
-
-def _upsert_of(table: sa.Table, dialect: str, unique: sa.Column[str] | None = None) -> _Put:
-    """Return how to insert a row or put it in the place of the one with its key.
+def _upsert(table: sa.Table, unique: sa.Column[str] | None = None) -> sa.Insert:
+    """Return what inserts a row or puts it in the place of the one with its key.
 
     ``unique`` is that key where it is not the primary one, which the database then gives.
     """
     [primary] = table.primary_key.columns
     key = unique if unique is not None else primary
-    others = [
-        column.name for column in table.columns if column is not key and column is not primary
-    ]
-    whole = _in_one(table, key, others, dialect)
-    if whole is not None:
-        return lambda connection, row: connection.execute(whole, row)
-    update = sa.update(table).where(key == sa.bindparam("its_key"))
-    update = update.values({name: sa.bindparam(name) for name in others})
-    add = sa.insert(table)
-
-    def put(connection: sa.Connection, row: dict[str, object]) -> None:
-        """Update, or insert where there is none: one writer, so nobody comes in between."""
-        rest = {name: row[name] for name in others}
-        if connection.execute(update, {"its_key": row[key.name], **rest}).rowcount == 0:
-            connection.execute(add, row)
-
-    return put
+    put, keys = sqlite.insert(table), {key.name, primary.name}
+    others = {c.name: put.excluded[c.name] for c in table.columns if c.name not in keys}
+    return put.on_conflict_do_update(index_elements=[key], set_=others)
 
 
-def _in_one(
-    table: sa.Table, key: sa.Column[str], others: list[str], dialect: str
-) -> sa.Insert | None:
-    """Return the one statement that inserts or replaces, where the database has one."""
-    if dialect == "sqlite":
-        lite = sqlite.insert(table)
-        taken = {name: lite.excluded[name] for name in others}
-        return lite.on_conflict_do_update(index_elements=[key], set_=taken)
-    if dialect == "postgresql":
-        post = postgresql.insert(table)
-        taken = {name: post.excluded[name] for name in others}
-        return post.on_conflict_do_update(index_elements=[key], set_=taken)
-    return None
+# Built once: putting a statement together costs as much as running it.
+_ADD_TRANSITION = sa.insert(_transitions)
+_PUT_MISSION, _PUT_ROW = _upsert(_missions), _upsert(goal_history.rows)
+_PUT_FACT, _PUT_KEY = _upsert(_facts), _upsert(_keys, _keys.c.key)
 
 
 def _sqlite_pragmas(connection: object, record: object) -> None:

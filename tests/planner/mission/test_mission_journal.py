@@ -15,14 +15,13 @@ from typing import Any, cast
 
 import pytest
 import sqlalchemy as sa
-from sqlalchemy.dialects.postgresql.base import PGDialect
 
 from planner.language.catalogue import message
 from planner.mission import JournalSync, MissionJournal
 from planner.mission import journal as journal_module
 from planner.mission.effects import Journal
 from planner.mission.goal_history import GoalHistory
-from planner.mission.journal import PRUNE_MOST, SCHEMA, _facts, _in_one, _keys, _upsert_of
+from planner.mission.journal import PRUNE_MOST, SCHEMA
 from planner.mission.journal_sync import JournalWriter, PendingEntry
 from planner.mission.state import MAX_ENDED, GoalKey, Mission
 from planner.plan import Code, GoalState, Language, Outcome, Say, StepPlan, StepState
@@ -153,36 +152,14 @@ def test_the_queue_is_written_when_it_changes_within_a_batch_and_after_a_failure
     journal.close()
 
 
-@pytest.mark.parametrize("dialect", ["sqlite", "another"])
-def test_a_row_is_put_in_the_place_of_the_one_with_its_key(dialect: str, tmp_path: Path) -> None:
+def test_a_key_that_comes_again_after_a_503_is_its_new_goals(tmp_path: Path) -> None:
     journal = MissionJournal.in_home(tmp_path)
-    put = _upsert_of(_facts, dialect)
-    with journal._engine.begin() as connection:
-        for value in ("1", "2"):
-            put(connection, {"name": "n", "value": value})
-        rows = connection.execute(sa.select(_facts.c.value).where(_facts.c.name == "n")).all()
-    journal.close()
-    assert [row.value for row in rows] == ["2"]
-
-
-@pytest.mark.parametrize("dialect", ["sqlite", "another"])
-def test_a_key_that_comes_again_after_a_503_is_its_new_goals(dialect: str, tmp_path: Path) -> None:
-    journal = MissionJournal.in_home(tmp_path)
-    journal._put_key = _upsert_of(_keys, dialect, _keys.c.key)
     journal.write((), (GoalKey("k", "f", "a"), GoalKey("other", "f", "b")))
     journal.write((Journal(1, (mission("c", 1),), ()),), (GoalKey("k", "f2", "c"),))
     kept = journal.load()
     journal.close()
     assert set(kept.keys) == {GoalKey("other", "f", "b"), GoalKey("k", "f2", "c")}
     assert [m.id for m in kept.missions] == ["c"]
-
-
-def test_postgres_has_the_one_statement_too() -> None:
-    [key] = _facts.primary_key.columns
-    made = _in_one(_facts, key, ["value"], "postgresql")
-    assert made is not None
-    dialect = PGDialect()  # type: ignore[no-untyped-call]  # sqlalchemy's own
-    assert "ON CONFLICT (name) DO UPDATE" in str(made.compile(dialect=dialect))
 
 
 def test_all_open_missions_come_back_and_only_the_newest_ended(tmp_path: Path) -> None:
