@@ -27,6 +27,7 @@ from planner.mission.legs import (
     give_up_goal,
     new_leg,
     take_short,
+    told_of_leg,
     wait_beside,
 )
 from planner.mission.outcomes import spot_at
@@ -187,23 +188,16 @@ def _waits_on(turn: Transaction, mission: Progress, leg: LegHolds) -> bool:
 
 def on_arrival(turn: Transaction) -> bool:
     """Go on in the step if the bridge says that its leg is done; say whether that happened."""
-    mission, driving, status = turn.running, turn.driving, turn.book.status
-    if mission is None or driving is None or status is None or driving.leg is None:
-        return False
-    leg, pose = status.leg, status.base_in_map
-    if leg is None or (leg.mission, leg.leg) != (mission.grant_name, driving.leg):
-        return False
-    if not (leg.reached and standing(status)) or pose is None:
+    driving, leg, status = turn.leg, told_of_leg(turn), turn.book.status
+    pose = turn.book.pose
+    if leg is None or status is None or pose is None or not (leg.reached and standing(status)):
         return False
     if _is_outside(turn, driving, pose):
         abandon_route(turn)
         return True
-    settled = settle_activity(turn)
-    if settled is None:
-        return True
-    mission = turn.put(
-        settled, part=settled.part + 1, skill_state=driving.act.then or settled.skill_state
-    )
+    mission = settle_activity(turn)
+    state = driving.act.then or mission.skill_state
+    mission = turn.put(mission, part=mission.part + 1, skill_state=state)
     figures = {"reached": spot_at(turn.book.facts, pose, driving.act.target)}
     residuals = {
         "residual_m": round(leg.residual_m, 4),

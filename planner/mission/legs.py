@@ -30,7 +30,7 @@ from planner.plan import Code, Outcome, PauseReason
 from planner.skills import Fail, Way, no_room
 from planner.skills.move import along
 from planner.skills.turn import turned_rad
-from wire import Mode, Pose2, Status
+from wire import LegReport, Mode, Pose2, Status
 
 MAX_ROUTES = 5
 """Routes of one leg that may be lost (off the path, refused by the bridge, short of the room)."""
@@ -48,21 +48,18 @@ def ask_route(
     turn: Transaction, purpose: RoutePurpose = RoutePurpose.LEG, *, keep_right_m: float = 0.0
 ) -> None:
     """Have a way searched from where the robot is; without a pose, as soon as there is one."""
-    mission, leg, start = turn.running, turn.driving, turn.book.pose
-    if mission is None or leg is None:
-        return
+    mission, leg, start = turn.at_work, turn.leg, turn.book.pose
     if start is None:
         turn.change(retry_s=turn.now_s + RETRY_S)
         return
     own, record = leg.manoeuvre, mission.recovery
-    ticket, way, goal = turn.book.tickets + 1, leg.act.way, record.aim(leg.act.goal)
+    ticket, way, goal = turn.take_ticket(), leg.act.way, record.aim(leg.act.goal)
     if own is not None:
         way, goal = own.way, own.goal
     if purpose is RoutePurpose.EXPLORE:
         way = Way.EXPLORE
     if way is Way.SPIN:
         goal = Pose2(start.x_m, start.y_m, goal.yaw_rad)
-    turn.set(tickets=ticket)
     turn.change(ticket=ticket, purpose=purpose, retry_s=None, route_when_standing=False)
     shut = shut_now(record, turn.now_unix_s) if way in _ROUND else ()
     seen = purpose is RoutePurpose.DETOUR or way is Way.STRAIGHT or bool(shut)
@@ -97,6 +94,13 @@ def new_leg(turn: Transaction, mission: Mission) -> None:
     turn.change(leg=leg, refused_since_s=None, idle_since_s=None, jumped=False)
 
 
+def told_of_leg(turn: Transaction) -> LegReport | None:
+    """Return what the bridge says of the very leg that is driven; None: nothing."""
+    told = turn.book.status.leg if turn.book.status is not None else None
+    ours = (turn.at_work.grant_name, turn.leg.leg)
+    return told if told is not None and (told.mission, told.leg) == ours else None
+
+
 def detour_failed(turn: Transaction, leg: LegRoutes) -> None:
     """Try a straight way or a spin again later; after three failures in a row it is blocked."""
     if leg.detours_failed + 1 >= MAX_DETOURS_FAILED:
@@ -128,9 +132,7 @@ def detour_if_due(turn: Transaction, leg: LegRoutes, blocked_since_s: float) -> 
 
 def abandon_route(turn: Transaction) -> None:
     """Stand, and route again once standing; give up after so many."""
-    leg = turn.driving
-    if leg is None:
-        return
+    leg = turn.leg
     if leg.routes >= (NAV2_ROUTES if turn.book.nav2 else MAX_ROUTES):
         fail_step(turn, _give_up_reason(turn))
         return

@@ -21,17 +21,18 @@ from planner.mission.activity import (
     Driving,
     LookingUp,
     Observing,
+    Waiting,
 )
 from planner.mission.effects import KeepPicture, SavePicture
 from planner.mission.legs import ask_route
 from planner.mission.outcomes import looks_into
 from planner.mission.queue import settle_activity
 from planner.mission.scene import scene_of
-from planner.mission.step_execution import carry_out, go_on
+from planner.mission.step_execution import carry_out, finish_step, go_on
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.perception.snapshot import Sight
-from planner.plan import Code
+from planner.plan import Code, StepState
 from planner.skills import (
     DriveLeg,
     Fail,
@@ -90,19 +91,13 @@ def on_sight(turn: Transaction, sight: Sight, classes: tuple[str, ...]) -> None:
 def stand_while_blind(turn: Transaction) -> bool:
     """Give up a leg for the eyes' sake while they see nothing, and wait for them; say if so."""
     mission, leg = turn.running, turn.driving
-    if (
-        turn.book.sight.blind is None
-        or mission is None
-        or mission.current_step is None
-        or leg is None
-    ):
+    if turn.book.sight.blind is None or mission is None or leg is None:
         return False
-    act = leg.act
-    if not (act.watch or act.wanted is not None or mission.current_step.kind in LOOKING):
+    act, kind = leg.act, mission.steps[mission.step].kind
+    if not (act.watch or act.wanted is not None or kind in LOOKING):
         return False
-    settled = settle_activity(turn)
-    if settled is not None:
-        carry_out(turn, settled, Observe(1, state=act.state, then=act.state, watch=act.watch))
+    gaze = Observe(1, state=act.state, then=act.state, watch=act.watch)
+    carry_out(turn, settle_activity(turn), gaze)
     return True
 
 
@@ -126,34 +121,47 @@ def on_standing(turn: Transaction) -> None:
     waits = isinstance(activity, Observing) and activity.standing_s is None
     if waits and status is not None and standing(status):
         turn.change(standing_s=turn.now_s + SETTLE_S)
-    end_gaze_if_due(turn)
+    end_if_due(turn)
 
 
-def end_gaze_if_due(turn: Transaction) -> None:
-    """End a gaze, or the wait for an answer, at its time; without any picture it fails."""
+def end_if_due(turn: Transaction) -> None:
+    """End a wait or a gaze at its time, or the wait for an answer; a gaze at nothing fails."""
     activity = turn.book.activity
-    if not isinstance(activity, (Observing, AskingImage)) or turn.now_s < activity.until_s:
+    if not isinstance(activity, (Waiting, Observing, AwaitingAnswer)):
         return
-    if isinstance(activity, AskingImage):
-        go_on(turn, activity.act.then, answer=ImageAnswer(failure="timed_out"))
-    elif activity.looked > 0:
-        _end_gaze(turn, activity)
-    else:
-        why = turn.book.sight.blind or "camera_silent"
-        said = message(Code.BLIND, why=say_or_quote("blind", why))
-        fail_step(turn, Fail(Code.BLIND, why, said))
+    if turn.now_s < activity.until_s:
+        return
+    mission = turn.at_work
+    step = mission.steps[mission.step]
+    match activity:
+        case Waiting():
+            finish_step(turn, StepState.SUCCEEDED)
+        case AskingImage():
+            go_on(turn, activity.act.then, answer=ImageAnswer(failure="timed_out"))
+        case Observing() if activity.looked > 0:
+            _end_gaze(turn, activity)
+        case Observing():
+            why = turn.book.sight.blind or "camera_silent"
+            said = message(Code.BLIND, why=say_or_quote("blind", why))
+            fail_step(turn, Fail(Code.BLIND, why, said))
+        case CallingTool():
+            said = message(Code.TOOL_FAILED, call=step.tool, why=say("tool_problem.timeout"))
+            fail_step(turn, Fail(Code.TOOL_FAILED, "timeout", said))
+        case _:
+            code = Code.MEMORY_UNAVAILABLE
+            carry_out(turn, mission, judge_recalled(step.role, code, message(code)))
 
 
 def _end_gaze(turn: Transaction, gaze: Observing) -> None:
     """Go on after a gaze; its picture is kept for people at a patrol's stop, else for a model."""
-    mission, then = turn.running, gaze.act.then
-    if mission is not None and isinstance(then, PatrolState):
+    mission, then = turn.at_work, gaze.act.then
+    if isinstance(then, PatrolState):
         stop = len(then.stops)
         place = mission.steps[mission.step].places[stop]
         inward = looks_into(turn.book.facts, place, turn.book.pose)
         turn.emit(SavePicture(mission.id, mission.step, stop, place, gaze.look_seq, inward))
     faced = then.faced if isinstance(then, LookState) else ()
-    if mission is not None and faced and turn.book.eyes.model:
+    if faced and turn.book.eyes.model:
         turn.emit(KeepPicture(mission.id, len(faced) - 1, gaze.look_seq))
     go_on(turn, then, gazed_s=gaze.standing_s)
 
@@ -193,11 +201,8 @@ def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> b
 
 def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     """Ask the skill in the middle of its act, and do what is new in its answer."""
-    mission = turn.running
-    if mission is None:
-        return
     turn.change(asked_s=turn.now_s)
-    act = act_of(scene_of(turn, mission))
+    act = act_of(scene_of(turn, turn.at_work))
     if _is_under_way(activity, act):
         if isinstance(act, (DriveLeg, Observe)) and activity.act.watch:
             turn.change(act=replace(activity.act, state=act.state, then=act.then))
@@ -209,9 +214,7 @@ def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     ):
         _lay_anew(turn, activity, act)
     else:
-        settled = settle_activity(turn)
-        if settled is not None:
-            carry_out(turn, settled, act)
+        carry_out(turn, settle_activity(turn), act)
 
 
 def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
@@ -265,18 +268,3 @@ def on_tool_answered(turn: Transaction, event: ToolAnswered) -> None:
     else:
         figures = {"code": Code.TOOL_FAILED, "read": event.read}
         carry_out(turn, mission, Fail(Code.TOOL_FAILED, event.problem, event.said, figures))
-
-
-def end_lookup_if_due(turn: Transaction) -> None:
-    """End a wait for memory, or for a tool, that has lasted too long."""
-    mission, activity = turn.running, turn.book.activity
-    late = isinstance(activity, CallingTool | LookingUp) and turn.now_s >= activity.until_s
-    if mission is None or not late:
-        return
-    step = mission.steps[mission.step]
-    if isinstance(activity, CallingTool):
-        said = message(Code.TOOL_FAILED, call=step.tool, why=say("tool_problem.timeout"))
-        carry_out(turn, mission, Fail(Code.TOOL_FAILED, "timeout", said))
-    else:
-        code = Code.MEMORY_UNAVAILABLE
-        carry_out(turn, mission, judge_recalled(step.role, code, message(code)))

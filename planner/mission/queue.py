@@ -108,10 +108,10 @@ def standing_hold(turn: Transaction) -> str | None:
     return None if pardoned else status.held.reason.value
 
 
-def settle_activity(turn: Transaction) -> Mission | None:
+def settle_activity(turn: Transaction) -> Mission:
     """Write what the running step measured into its mission; the robot is free afterwards."""
-    mission, activity = turn.running, turn.book.activity
-    if mission is not None and activity is not None:
+    mission, activity = turn.at_work, turn.book.activity
+    if activity is not None:
         limited = dict(mission.limited)
         counted = activity.limited if isinstance(activity, Driving) else {}
         for name, count in counted.items():
@@ -149,8 +149,8 @@ def pause_running(
     turn: Transaction, reason: str, cause: Cause = GoalFact.INTERRUPTED, by: str | None = None
 ) -> None:
     """Stand still and keep the running mission's place; those who wait are kept waiting."""
-    mission = settle_activity(turn)
-    if mission is not None:
+    if turn.running is not None:
+        mission = settle_activity(turn)
         if reason == PauseReason.TELEOP.value:  # from now on another hand moves the robot
             mission = turn.put(mission, began_at=None)
         turn.move_to(mission, cause, reason=reason, outcome=_hint(reason), stopped_by=by)
@@ -190,8 +190,6 @@ def end_running(
 ) -> None:
     """End the running mission with its figures; steps never begun are skipped."""
     mission = settle_activity(turn)
-    if mission is None:
-        return
     said = said or failure(turn.book.facts, mission, mission.current_step, code, row)
     finish(turn, mission, cause, ended_outcome(turn, mission, code, said), reason)
 
@@ -261,9 +259,7 @@ def next_up(turn: Transaction) -> Mission | None:
 
 def note_step(turn: Transaction, mission: Mission, **changes: object) -> Mission:
     """Change the record of the mission's current step."""
-    if mission.plan is None:
-        return mission
-    steps = list(mission.plan.steps)
+    steps = list(mission.steps)
     steps[mission.step] = steps[mission.step].model_copy(update=changes)
     return turn.put_steps(mission, tuple(steps))
 
@@ -271,7 +267,7 @@ def note_step(turn: Transaction, mission: Mission, **changes: object) -> Mission
 def decline(turn: Transaction, mission: Mission, said: Bilingual) -> None:
     """End a goal where the robot stands; a question that was answered is over, the rest skipped."""
     if turn.book.running == mission.id:
-        mission = settle_activity(turn) or mission
+        mission = settle_activity(turn)
     if (
         mission.current_step is not None
         and mission.current_step.kind == "ask"

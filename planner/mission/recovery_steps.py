@@ -14,7 +14,7 @@ from planner.bridge_client.bridge_status import standing
 from planner.mission.account import place_name
 from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.events import Surveyed
-from planner.mission.legs import RETRY_S, ask_route, look_for_room
+from planner.mission.legs import RETRY_S, ask_route, look_for_room, told_of_leg
 from planner.mission.queue import note_step
 from planner.mission.recovery import (
     LADDER,
@@ -77,8 +77,8 @@ def recover(turn: Transaction, leg: Driving, status: Status) -> None:
 
     A gate that opens for a moment, so that the robot creeps, starts no wait anew.
     """
-    mission, pose = turn.running, status.base_in_map
-    if mission is None or pose is None:
+    mission, pose = turn.at_work, status.base_in_map
+    if pose is None:
         return
     record = begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
     if record is not mission.recovery:
@@ -100,11 +100,9 @@ def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
     What is black stays where it is and leaves the sector proven; a hole in the lidar turns along,
     and the bridge holds the way again.
     """
-    mission, pose = turn.running, status.base_in_map
-    if mission is None or pose is None:
-        return
-    record = turn_out(mission.recovery, (pose.x_m, pose.y_m))
-    if record is None:
+    mission, pose = turn.at_work, status.base_in_map
+    record = None if pose is None else turn_out(mission.recovery, (pose.x_m, pose.y_m))
+    if pose is None or record is None:
         return
     mission = turn.put(mission, recovery=record)
     note_recovery(turn, mission, Recovery.TURN_OUT)
@@ -113,29 +111,24 @@ def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
 
 def next_rung(turn: Transaction) -> None:
     """Put the foot on the next rung; it begins once the robot is held."""
-    mission = turn.running
-    if mission is not None:
-        record = mission.recovery
-        turn.put(mission, recovery=record.model_copy(update={"rung": rung_after(record)}))
-        turn.change(rung_since_s=None)
+    mission, record = turn.at_work, turn.at_work.recovery
+    turn.put(mission, recovery=record.model_copy(update={"rung": rung_after(record)}))
+    turn.change(rung_since_s=None)
 
 
 def _begin_rung(turn: Transaction) -> float:
     """Return since when the rung is in hand; where it begins now, tell so."""
-    mission, leg = turn.running, turn.driving
-    if leg is not None and leg.rung_since_s is not None:
-        return leg.rung_since_s
+    mission, since_s = turn.at_work, turn.leg.rung_since_s
+    if since_s is not None:
+        return since_s
     turn.change(rung_since_s=turn.now_s)
-    if mission is not None:
-        note_recovery(turn, mission, rung_of(mission.recovery).recovery)
+    note_recovery(turn, mission, rung_of(mission.recovery).recovery)
     return turn.now_s
 
 
 def note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> Mission:
     """Tell in the step's record what is tried."""
-    if mission.current_step is None:
-        return mission
-    told = (*mission.current_step.recoveries, recovery.value)
+    told = (*mission.steps[mission.step].recoveries, recovery.value)
     return note_step(turn, mission, recoveries=told[-MAX_TOLD:])
 
 
@@ -145,13 +138,11 @@ def climb_on(turn: Transaction) -> None:
     A wait ends with a new search; the last one, before giving up, would wait for nothing.
     """
     next_rung(turn)
-    mission, pose = turn.running, turn.book.pose
-    if mission is None:
-        return
+    pose = turn.book.pose
     if pose is None:
         turn.change(retry_s=turn.now_s + RETRY_S)
         return
-    rung = rung_of(mission.recovery)
+    rung = rung_of(turn.at_work.recovery)
     _begin_rung(turn)
     if rung.recovery is not Recovery.WAIT:
         _do_rung(turn, rung, pose)
@@ -162,9 +153,7 @@ def climb_on(turn: Transaction) -> None:
 
 
 def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
-    mission, leg = turn.running, turn.driving
-    if mission is None or leg is None:
-        return
+    mission, leg = turn.at_work, turn.leg
     match rung.recovery:
         case Recovery.REROUTE | Recovery.OTHER_WAY:
             ask_route(turn, RoutePurpose.DETOUR)
@@ -240,8 +229,8 @@ def _manoeuvre(
 
 def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
     """End a manoeuvre that has come where it was to, or is over; then begin the next rung."""
-    own, told, mission = leg.manoeuvre, status.leg, turn.running
-    if own is None or mission is None:
+    own, told = leg.manoeuvre, told_of_leg(turn)
+    if own is None:
         return
     if own.stays:
         if not status.blocked:
@@ -250,16 +239,11 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
             turn.change(manoeuvre=None)
             next_rung(turn)
         return
-    reached = (
-        told is not None
-        and (told.mission, told.leg) == (mission.grant_name, leg.leg)
-        and told.reached
-        and standing(status)
-        and leg.ticket is None
-    )
+    is_there = told is not None and told.reached and standing(status)
+    reached = is_there and leg.ticket is None
     aside = own.rung.recovery is Recovery.GIVE_WAY
     if reached and aside and not own.part:
-        until_s = turn.now_s + aside_s(mission.recovery)
+        until_s = turn.now_s + aside_s(turn.at_work.recovery)
         turn.change(manoeuvre=replace(own, part=1, until_s=until_s))
         return
     if not (turn.now_s >= own.until_s or (reached and not aside)):
@@ -275,9 +259,7 @@ def end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
 
     A turn out of a silent sector is no rung: the leg's way is searched again.
     """
-    mission = turn.running
-    if mission is None:
-        return
+    mission = turn.at_work
     gone_m = mission.recovery.metres + max(0.0, leg.metres - own.begun_m)
     record = mission.recovery.model_copy(update={"metres": round(gone_m, 3)})
     turn.put(mission, recovery=record)

@@ -17,7 +17,14 @@ from planner.bridge_client.bridge_status import (
     shows,
     standing,
 )
-from planner.mission.activity import AskingImage, Driving, Observing, Retrying, RoutePurpose
+from planner.mission.activity import (
+    AskingImage,
+    Driving,
+    Observing,
+    Retrying,
+    RoutePurpose,
+    Waiting,
+)
 from planner.mission.leg_routes import on_arrival, reconsider_viewpoint
 from planner.mission.legs import (
     abandon_route,
@@ -26,19 +33,15 @@ from planner.mission.legs import (
     forget_beginnings,
     hand_steers,
     settle_amounts,
+    told_of_leg,
 )
 from planner.mission.open_questions import end_unanswered
 from planner.mission.outcomes import moves
-from planner.mission.perception_events import (
-    end_gaze_if_due,
-    end_lookup_if_due,
-    on_standing,
-    stand_while_blind,
-)
+from planner.mission.perception_events import end_if_due, on_standing, stand_while_blind
 from planner.mission.queue import end_running, hold_queue, pause_running, standing_hold
 from planner.mission.recovery_steps import leave_silence, recover, watch_manoeuvre
 from planner.mission.state import Mission
-from planner.mission.step_execution import begin_step, end_wait_if_due
+from planner.mission.step_execution import begin_step
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
@@ -89,19 +92,17 @@ def on_tick(turn: Transaction) -> None:
     if moving and turn.now_s - turn.book.status_s > SILENCE_S:
         pause_running(turn, fault("BRAIN_GONE"))
         return
-    end_wait_if_due(turn)
-    end_gaze_if_due(turn)
-    end_lookup_if_due(turn)
+    end_if_due(turn)
 
 
 def _measure(
     turn: Transaction, before: Status | None, status: Status, since_s: float, left_m: float | None
 ) -> None:
     """Add up the odometry, the time that the leg was followed, and the limits met."""
-    activity, mission = turn.book.activity, turn.running
-    if activity is None or mission is None or mission.current_step is None:
+    activity, mission = turn.book.activity, turn.at_work
+    if activity is None:
         return
-    turning = mission.current_step.kind == "turn"
+    turning = mission.steps[mission.step].kind == "turn"
     turn.change(
         metres=activity.metres + driven_m(before, status),
         amount=activity.amount + amount_done(before, status, turning=turning),
@@ -122,8 +123,8 @@ def _interrupt(turn: Transaction, status: Status, silent_s: float) -> bool:
     if hold is not None:
         pause_running(turn, _fault_reason(status) if hold == "fault" else hold)
         return True
-    mission = turn.running
-    if mission is None or not any(map(moves, mission.steps_ahead)):
+    mission = turn.at_work
+    if not any(map(moves, mission.steps_ahead)):
         return False
     if silent_s > SILENCE_S:
         pause_running(turn, fault("BRAIN_GONE"))
@@ -183,7 +184,8 @@ def _held_too_long(turn: Transaction, status: Status) -> bool:
 
 
 def _progress(turn: Transaction, status: Status, off_path: bool) -> None:
-    end_wait_if_due(turn)
+    if isinstance(turn.book.activity, Waiting):
+        end_if_due(turn)
     match turn.book.activity:
         case Observing() | AskingImage():
             on_standing(turn)
@@ -212,8 +214,7 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
         if standing(status) and not shows(status, "POSE_JUMP"):
             ask_route(turn)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
-        mission = turn.running
-        climbed = mission is not None and mission.recovery.ladders > 0
+        climbed = turn.at_work.recovery.ladders > 0
         again = leg.detours_failed > 0 or leg.occupied_since_s is not None or climbed
         ask_route(turn, RoutePurpose.DETOUR if again else RoutePurpose.LEG)
     elif leg.leg is not None:
@@ -236,12 +237,10 @@ def _off_limits(turn: Transaction, leg: Driving) -> bool:
 
 def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     """Follow the leg that is streamed: blocked, refused, or forgotten by the bridge."""
-    mission, leg = turn.running, status.leg
-    ours = leg is not None and mission is not None and leg.mission == mission.grant_name
-    ours = ours and leg is not None and leg.leg == driving.leg
-    refused = ours and leg is not None and leg.refusal is not None
-    quiet = not (ours and leg is not None and leg.following)
-    quiet = quiet and not status.blocked and not holding_rows(status)
+    leg = told_of_leg(turn)
+    refused = leg is not None and leg.refusal is not None
+    follows = leg is not None and leg.following
+    quiet = not (follows or status.blocked or holding_rows(status))
     blocked_s = _since(driving.blocked_since_s, status.blocked, turn.now_s)
     refused_s = _since(driving.refused_since_s, refused, turn.now_s)
     idle_s = _since(driving.idle_since_s, quiet, turn.now_s)
@@ -261,8 +260,8 @@ def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
 
 
 def _recover_or_go_on(turn: Transaction, status: Status) -> None:
-    leg = turn.driving
-    if leg is None or leg.ticket is not None:
+    leg = turn.leg
+    if leg.ticket is not None:
         return
     rows = {row.row for row in holding_rows(status)} - GATES
     if rows == {SILENT_SECTOR}:

@@ -88,10 +88,7 @@ def _look_anew(turn: Transaction, mission: Mission) -> None:
 
 def begin_step(turn: Transaction) -> None:
     """Begin the current step of the running mission, or end a mission that has no more."""
-    mission = turn.running
-    if mission is None:
-        return
-    mission = _enter(turn, mission)
+    mission = _enter(turn, turn.at_work)
     step = mission.current_step
     if step is None or step.state is StepState.SKIPPED:  # left out: only the way back was driven
         _finish_mission(turn, mission)
@@ -117,11 +114,16 @@ def _enter(turn: Transaction, mission: Mission) -> Mission:
     return to_step(turn, turn.put_steps(mission, at.row), at.index)
 
 
-def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
+def carry_out(  # noqa: C901, PLR0912  # one case an act
+    turn: Transaction, mission: Mission, act: SkillAction
+) -> None:
     """Do what a skill asked for."""
     match act:
         case DriveLeg():
-            _drive(turn, mission, act)
+            _begin(turn, mission, bill=act.bill, **so_far(act.state))
+            leg = Driving(record=turn.next_entry, act=act, since_s=turn.now_s, asked_s=turn.now_s)
+            turn.set(activity=leg)
+            ask_route(turn)
         case Observe():
             _gaze(turn, mission, act)
         case AskImage():
@@ -129,9 +131,16 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
         case Retry():
             _later(turn, mission, act)
         case Stand():
-            _stand(turn, mission, act)
-        case Speak() | LookUp() | CallTool():
-            _stay(turn, mission, act)
+            _begin(turn, _keep_state(turn, mission, act.state))
+            until_s = turn.now_s + act.seconds
+            turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
+        case Speak():
+            _begin(turn, mission)
+            turn.set(activity=Speaking(record=turn.next_entry))
+        case LookUp():
+            _look_up(turn, mission, act)
+        case CallTool():
+            _call_tool(turn, mission, act)
         case Question():
             _ask(turn, mission, act)
         case Think():
@@ -147,23 +156,18 @@ def carry_out(turn: Transaction, mission: Mission, act: SkillAction) -> None:
             fail_step(turn, act)
 
 
-def _stand(turn: Transaction, mission: Mission, act: Stand) -> None:
-    mission = turn.put(mission, skill_state=act.state or mission.skill_state)
-    note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    until_s = turn.now_s + act.seconds
-    turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
+def _begin(turn: Transaction, mission: Mission, **record: object) -> Mission:
+    """Note in the record of the current step that it runs."""
+    return note_step(turn, mission, state=StepState.RUNNING, reason=None, **record)
 
 
-def _drive(turn: Transaction, mission: Mission, act: DriveLeg) -> None:
-    more = so_far(act.state)
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill, **more)
-    leg = Driving(record=turn.next_entry, act=act, since_s=turn.now_s, asked_s=turn.now_s)
-    turn.set(activity=leg)
-    ask_route(turn)
+def _keep_state(turn: Transaction, mission: Mission, state: SkillStateBase | None) -> Mission:
+    """Keep what a skill remembers from now on; None: as before."""
+    return turn.put(mission, skill_state=state or mission.skill_state)
 
 
 def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
+    _begin(turn, mission, bill=act.bill)
     observing = Observing(
         record=turn.next_entry,
         act=act,
@@ -176,37 +180,40 @@ def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
 
 def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     """Ask about the picture, standing; the answer comes with the ticket."""
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, bill=act.bill)
-    ticket = turn.book.tickets + 1
+    _begin(turn, mission, bill=act.bill)
     asking = AskingImage(
         record=turn.next_entry,
         act=act,
         since_s=turn.now_s,
-        ticket=ticket,
+        ticket=turn.take_ticket(),
         until_s=turn.now_s + act.seconds,
     )
-    turn.set(tickets=ticket, activity=asking)
-    turn.emit(AskEyes(mission.id, ticket, mission.language, act))
+    turn.set(activity=asking)
+    turn.emit(AskEyes(mission.id, asking.ticket, mission.language, act))
 
 
-def _stay(turn: Transaction, mission: Mission, act: Speak | LookUp | CallTool) -> None:
-    """Say words, or have memory or a tool asked; a tool once this is on disk."""
-    if isinstance(act, CallTool):
-        mission = turn.put(mission, skill_state=act.state or mission.skill_state)
-    mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    if isinstance(act, Speak):
-        turn.set(activity=Speaking(record=turn.next_entry))
-        return
-    step, ticket, record = mission.steps[mission.step], turn.book.tickets + 1, turn.next_entry
-    until_s = turn.now_s + act.seconds
-    if isinstance(act, CallTool):
-        calling = CallingTool(record=record, ticket=ticket, agreed=act.agreed, until_s=until_s)
-        turn.set(tickets=ticket, activity=calling)
-        return
-    looking = LookingUp(record=record, ticket=ticket, until_s=until_s)
-    turn.set(tickets=ticket, activity=looking)
+def _look_up(turn: Transaction, mission: Mission, act: LookUp) -> None:
+    _begin(turn, mission)
+    step, ticket, until_s = (
+        mission.steps[mission.step],
+        turn.take_ticket(),
+        turn.now_s + act.seconds,
+    )
+    turn.set(activity=LookingUp(record=turn.next_entry, ticket=ticket, until_s=until_s))
     asked = (step.object, step.place, step.span, step.deeds, step.role in JUDGED)
     turn.emit(AskMemory(mission.id, ticket, *asked))
+
+
+def _call_tool(turn: Transaction, mission: Mission, act: CallTool) -> None:
+    """Have a tool asked once this is on disk."""
+    _begin(turn, _keep_state(turn, mission, act.state))
+    calling = CallingTool(
+        record=turn.next_entry,
+        ticket=turn.take_ticket(),
+        agreed=act.agreed,
+        until_s=turn.now_s + act.seconds,
+    )
+    turn.set(activity=calling)
 
 
 def go_on(
@@ -218,8 +225,6 @@ def go_on(
 ) -> None:
     """Go on in the step after a gaze or an answer: ask its skill what is next."""
     mission = settle_activity(turn)
-    if mission is None:
-        return
     mission = turn.put(mission, part=mission.part + 1, skill_state=then or mission.skill_state)
     carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
 
@@ -232,25 +237,26 @@ def _later(turn: Transaction, mission: Mission, act: Retry) -> None:
     if isinstance(turn.book.activity, Retrying):
         turn.change(retry_s=retry_s)
         return
-    note_step(turn, mission, state=StepState.RUNNING, reason=None)
+    _begin(turn, mission)
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=retry_s))
 
 
 def _ask(turn: Transaction, mission: Mission, act: Question) -> None:
     """Ask a person. What was answered before was about another question: it is forgotten."""
-    state = act.state if act.state is not None else mission.skill_state
-    begun = mission.steps[mission.step].state is StepState.RUNNING
-    again = begun and state == mission.skill_state  # then it was perhaps said
-    mission = turn.put(mission, skill_state=state)
-    note_step(turn, mission, state=StepState.RUNNING, reason=None, answer=None)
+    again = _is_under_way(mission, act.state)  # then it was perhaps said
+    _begin(turn, _keep_state(turn, mission, act.state), answer=None)
     asking = Asking(record=turn.next_entry, question=act.text, aloud=not again)
     turn.set(activity=asking)
 
 
-def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
-    state = act.state if act.state is not None else mission.skill_state
+def _is_under_way(mission: Mission, state: SkillStateBase | None) -> bool:
+    """Tell whether the current step was begun, and its skill remembers what it did then."""
     begun = mission.steps[mission.step].state is StepState.RUNNING
-    if begun and state == mission.skill_state:  # paused meanwhile: it was counted
+    return begun and state in (None, mission.skill_state)
+
+
+def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
+    if _is_under_way(mission, act.state):  # paused meanwhile: it was counted
         think(turn, mission)
         return
     if mission.decides >= turn.book.rules.decides:
@@ -259,15 +265,13 @@ def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
         )
         fail_step(turn, Fail(Code.OUT_OF_BUDGET, "thoughts", said))
         return
-    mission = note_step(turn, mission, state=StepState.RUNNING, reason=None)
-    think(turn, turn.put(mission, decides=mission.decides + 1, skill_state=state))
+    mission = _begin(turn, _keep_state(turn, mission, act.state))
+    think(turn, turn.put(mission, decides=mission.decides + 1))
 
 
 def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
     """Write the end of a step and begin the next."""
     mission = settle_activity(turn)
-    if mission is None:
-        return
     mission = note_step(turn, mission, state=state, **record)
     if mission.plan is None or mission.returning:  # only the way back was left
         to_step(turn, mission, len(mission.steps))
@@ -311,13 +315,6 @@ def _send_call(turn: Transaction, mission: Mission, calling: CallingTool) -> Non
     turn.emit(AskTool(mission.id, calling.ticket, *call, calling.agreed))
     turn.emit(SayAloud(mission.id, asking.of(mission.language)))
     turn.change(is_sent=True)
-
-
-def end_wait_if_due(turn: Transaction) -> None:
-    """End a wait whose time is over."""
-    activity = turn.book.activity
-    if isinstance(activity, Waiting) and turn.now_s >= activity.until_s:
-        finish_step(turn, StepState.SUCCEEDED)
 
 
 def _finish_mission(turn: Transaction, mission: Mission) -> None:

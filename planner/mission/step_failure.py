@@ -48,8 +48,6 @@ def fail_step(turn: Transaction, cannot: Fail) -> None:
         _drop_leg(turn, leg.act.otherwise)
         return
     mission = settle_activity(turn)
-    if mission is None:
-        return
     if cannot.code is Code.DECLINED and cannot.said is not None:
         decline(turn, mission, cannot.said)
         return
@@ -85,10 +83,7 @@ def _take_other_way(turn: Transaction, mission: Mission) -> bool:
 
 def _drop_leg(turn: Transaction, state: SkillStateBase) -> None:
     """Go on in the step without this leg: its skill is asked soon, standing."""
-    mission = settle_activity(turn)
-    if mission is None:
-        return
-    turn.put(mission, skill_state=state)
+    turn.put(settle_activity(turn), skill_state=state)
     retry_s = turn.now_s + AGAIN_S
     again = Retrying(record=turn.next_entry, retry_s=retry_s, since_s=turn.now_s)
     turn.set(activity=again)

@@ -42,6 +42,15 @@ class Transaction:
         return self.book.running_goal
 
     @property
+    def at_work(self) -> Mission:
+        """Return the mission that has the robot, for what is done in its name alone.
+
+        Raises:
+            KeyError: none has it.
+        """
+        return self.book.missions[self.book.running or ""]
+
+    @property
     def now_unix_s(self) -> float:
         """Return the time by the wall clock."""
         return self.now_s + self.book.wall_offset_s
@@ -83,6 +92,17 @@ class Transaction:
         activity = self.book.activity
         return activity if isinstance(activity, Driving) else None
 
+    @property
+    def leg(self) -> Driving:
+        """Return the leg that the running step drives, for what is done to it alone.
+
+        Raises:
+            TypeError: it does something else.
+        """
+        if not isinstance(self.book.activity, Driving):
+            raise TypeError(f"no leg is driven, but {self.book.activity!r}")
+        return self.book.activity
+
     def change(self, **changes: Any) -> None:
         """Change fields of the running step's activity, if it has one."""
         activity = self.book.activity
@@ -95,6 +115,11 @@ class Transaction:
     def next_entry(self) -> int:
         """Return the journal entry that will hold what this turn changes."""
         return self.book.written + 1
+
+    def take_ticket(self) -> int:
+        """Return the number of a question that is asked now."""
+        self.set(tickets=self.book.tickets + 1)
+        return self.book.tickets
 
     def close(self) -> tuple[MissionState, tuple[Effect, ...]]:
         """Journal what changed, before anything else is asked; forget the oldest ended goals."""
