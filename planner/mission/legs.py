@@ -28,8 +28,7 @@ from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
 from planner.plan import Code, Outcome, PauseReason
 from planner.skills import Fail, Way, no_room
-from planner.skills.move import along
-from planner.skills.turn import turned_rad
+from planner.skills.measured_motions import along, turned_rad
 from wire import LegReport, Mode, Pose2, Status
 
 MAX_ROUTES = 5

@@ -16,7 +16,7 @@ from planner.mission.state import AGENT_SOURCE, GivenOrder, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState
-from planner.skills.state_base import SkillStateBase
+from planner.skills.skill_state import SkillStateBase
 
 PARDON_S = 2.0
 """A request that clears the bridge's hold is echoed within 2 s or was not heard."""

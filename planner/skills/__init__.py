@@ -31,25 +31,19 @@ from planner.skills.actions import (
 from planner.skills.ask import ask
 from planner.skills.conditions import clock, judge_condition
 from planner.skills.count import count
-from planner.skills.decide import decide
 from planner.skills.drive_to_place import come_back, go_to, go_to_pose, return_home
 from planner.skills.explore import explore
 from planner.skills.find import find
 from planner.skills.follow import follow
-from planner.skills.go_to_object import go_to_object
-from planner.skills.go_to_point import go_to_point
+from planner.skills.go_to_object import go_to_object, go_to_point
 from planner.skills.look import look
-from planner.skills.move import move, no_room
+from planner.skills.measured_motions import move, no_room, turn
 from planner.skills.patrol import patrol
-from planner.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
-from planner.skills.recall import recall
-from planner.skills.say import say
-from planner.skills.skill_state import STATES, SkillState, begin_state
+from planner.skills.perception import Eyesight, ImageAnswer
+from planner.skills.plain_steps import decide, recall, say, wait
+from planner.skills.skill_state import STATES, SkillStateBase, begin_state
 from planner.skills.stand_at import stand_at
-from planner.skills.state_base import SkillStateBase
-from planner.skills.turn import turn
 from planner.skills.use_tool import use_tool
-from planner.skills.wait import wait
 from planner.skills.wait_for import wait_for
 
 SKILLS: MappingProxyType[str, Callable[[Scene[Any]], SkillAction]] = MappingProxyType(
@@ -100,9 +94,7 @@ def act_of(scene: Scene[Any]) -> SkillAction:
 
 
 __all__ = [
-    "NO_EYES",
     "SKILLS",
-    "STATES",
     "AskImage",
     "CallTool",
     "DriveLeg",
@@ -116,13 +108,11 @@ __all__ = [
     "Retry",
     "Scene",
     "SkillAction",
-    "SkillState",
     "SkillStateBase",
     "Skip",
     "Speak",
     "Stand",
     "Think",
-    "WantedObject",
     "Way",
     "act_of",
     "begin_state",

@@ -16,7 +16,7 @@ from planner.perception.snapshot import Sight
 from planner.plan import Bilingual, Code, Language, PictureBill, StepRecord
 from planner.site.site_view import SiteView
 from planner.skills.perception import NO_EYES, Eyesight, ImageAnswer, WantedObject
-from planner.skills.state_base import SkillStateBase
+from planner.skills.skill_state import SkillStateBase
 from wire import Pose2
 
 S_co = TypeVar("S_co", covariant=True)

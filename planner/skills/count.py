@@ -17,7 +17,7 @@ from planner.language.catalogue import message, say
 from planner.language.object_names import name_object, named_several
 from planner.language.questions import has_several_neighbours
 from planner.plan import Bilingual, Code
-from planner.skills.actions import DriveLeg, Finish, Question, Retry, Scene, SkillAction
+from planner.skills.actions import Finish, Question, Retry, Scene, SkillAction
 from planner.skills.find import unknown
 from planner.skills.longer_search import offer_more, tell_looked
 from planner.skills.look_around import look_round
@@ -31,14 +31,12 @@ from planner.skills.object_matching import (
 )
 from planner.skills.result_text import by_neighbour, name_count, room_name
 from planner.skills.search import (
-    affords,
+    PlaceFilter,
     begin,
-    cap_leg,
     find_spent_budget,
-    make_filter,
+    keep_in_bounds,
     ran_out,
     spots,
-    stop_short,
 )
 from planner.skills.skill_state import CountState
 from planner.skills.viewpoints import NEAR, room_at
@@ -70,9 +68,8 @@ def count(scene: Scene[CountState]) -> SkillAction:
     if isinstance(next_, CountState):
         changed = next_ != scene.state  # another room may be meant, where this one was shut
         return count(scene.but(next_)) if changed else _tell_count(inside, wanted)
-    if isinstance(next_, DriveLeg) and not affords(scene, pose, next_):
-        return _tell_count(inside.but(stop_short(inside, next_)), wanted)
-    return replace(cap_leg(scene, next_), state=scene.state)
+    act = keep_in_bounds(scene, pose, next_)
+    return _tell_count(inside.but(act), wanted) if isinstance(act, CountState) else act
 
 
 def _narrow(scene: Scene[CountState], pose: Pose2, wanted: WantedObject) -> Scene[CountState]:
@@ -104,7 +101,7 @@ def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish | Ques
 
     None seen in a part of what was to be looked at is no number.
     """
-    state, inside = scene.state, make_filter(scene)
+    state, inside = scene.state, PlaceFilter(scene)
     seen = list_confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
     number = len(drop_doubles(filter(inside, seen)))
     what = by_neighbour(_name_so_many(number, wanted.label, wanted.color), wanted)

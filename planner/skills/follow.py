@@ -12,7 +12,6 @@ that was said, else 300 s. Budget: 300 s, and the bridge's grant.
 from __future__ import annotations
 
 from dataclasses import replace
-from math import hypot
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import message, say
@@ -30,7 +29,7 @@ from planner.skills.actions import (
 )
 from planner.skills.find import unknown
 from planner.skills.look_around import leg_to, look_round, spin
-from planner.skills.object_matching import away_m, bearing, lasting, one_of, turn_to
+from planner.skills.object_matching import apart_m, away_m, bearing, lasting, one_of, turn_to
 from planner.skills.search import short_of
 from planner.skills.skill_state import FollowPersonState, FollowStage
 from planner.skills.viewpoints import HERE, Viewpoint, room_at
@@ -89,8 +88,8 @@ def _in_sight(scene: Scene[FollowPersonState], wanted: WantedObject) -> Thing | 
     """
     seen, pose, at = _find_in_sight(scene, wanted), scene.pose, scene.state.at
     if at is not None:
-        seen = [t for t in seen if _distance_m(t, at) <= _reach_m(scene)]
-        return min(seen, key=lambda t: _distance_m(t, at), default=None)
+        seen = [t for t in seen if apart_m(t, at) <= _reach_m(scene)]
+        return min(seen, key=lambda t: apart_m(t, at), default=None)
     if pose is None:
         return None
     return min(filter(lasting, seen), key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
@@ -105,10 +104,6 @@ def _find_in_sight(scene: Scene[FollowPersonState], wanted: WantedObject) -> lis
 def _reach_m(scene: Scene[FollowPersonState]) -> float:
     """Return how far the person may have come since they were seen last [m]."""
     return SAME_M + max(0.0, scene.spent_s - scene.state.seen_s)
-
-
-def _distance_m(thing: Thing, at: tuple[float, float, float]) -> float:
-    return hypot(thing.x_m - at[0], thing.y_m - at[1])
 
 
 def _keep_up(

@@ -1,20 +1,20 @@
 """Drive up to a thing: half a metre is left between it and the robot's edge, which faces it.
 
-Precondition: the detector knows what is meant, or a vision model can point at it and a person says
-yes to the point (pointing.py); words that pick one out by more than kind and colour ("the small
-cup") only a model understands. The thing is found as ``find`` does, and looked at once more where
-it was seen for a moment only; the standing point is tried from this side first, then about the
-thing; the route search moves one that lies in furniture to where the thing is seen from, on the
-map, and leaves out what is behind a wall; last comes the nearest such point at all. Verdict: the
-bridge reached the leg, and where the thing must be in view a look confirms it, or it was seen on
-the way and something hides it now; where it is too near for that, it is still remembered, which it
-is not when it should have been seen on the way and was not. When it is gone it is looked for once
-more, then that is told. Budget: as for ``find``.
+Precondition: the detector knows what is meant, or a vision model can point at it and a person
+says yes to the point (model_pointing.py); words that pick one out by more than kind and colour
+("the small cup") only a model understands. The thing is found as ``find`` does, and looked at once
+more where it was seen for a moment only; the standing point is tried from this side first, then
+about the thing; the route search moves one that lies in furniture to where the thing is seen from,
+on the map, and leaves out what is behind a wall; last comes the nearest such point at all. Verdict:
+the bridge reached the leg, and where the thing must be in view a look confirms it, or it was seen
+on the way and something hides it now; where it is too near for that, it is still remembered, which
+it is not when it should have been seen on the way and was not. When it is gone it is looked for
+once more, then that is told. Budget: as for ``find``.
 """
 
 from __future__ import annotations
 
-from math import hypot, pi
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 from planner.language.catalogue import message, say
@@ -23,6 +23,7 @@ from planner.language.object_names import name_object
 from planner.perception.snapshot import Thing
 from planner.plan import Code, Found, say_same
 from planner.skills.actions import (
+    AskImage,
     Fail,
     Finish,
     Observe,
@@ -31,10 +32,12 @@ from planner.skills.actions import (
     SkillAction,
 )
 from planner.skills.find import not_found, unknown
+from planner.skills.image_errors import point_refused
 from planner.skills.look_around import FACING_RAD, LOOKS, leg_to, spin
 from planner.skills.model_pointing import agree_on_point
 from planner.skills.object_matching import (
     WORTH,
+    apart_m,
     away_m,
     bearing,
     fits,
@@ -49,12 +52,13 @@ from planner.skills.object_matching import (
     twice,
 )
 from planner.skills.result_text import name_one
-from planner.skills.search import make_filter, search, short_of
+from planner.skills.search import PlaceFilter, search, short_of
 from planner.skills.skill_state import (
     AimStage,
     ApproachStage,
     ApproachState,
     GoToObjectState,
+    GoToPointState,
 )
 
 if TYPE_CHECKING:
@@ -130,7 +134,7 @@ def approach(scene: Scene[ApproachState], pose: Pose2, wanted: WantedObject | No
 
 def _find_nearest(scene: Scene[GoToObjectState], pose: Pose2, wanted: WantedObject) -> Thing | None:
     """Return the nearest that was seen just now and for a while, beyond doubt."""
-    inside = make_filter(scene)
+    inside = PlaceFilter(scene)
     known = [t for t in list_confirmed(scene.sight, wanted, scene.now_s - FRESH_S) if inside(t)]
     known = [t for t in known if lasting(t) and t.id not in scene.state.tried]
     return min(known, key=lambda t: away_m(pose, (t.x_m, t.y_m)), default=None)
@@ -183,12 +187,8 @@ def _near(
     """Return the one of these, seen twice at least, that was driven up to at a point."""
     label = scene.state.label
     seen = [t for t in things if t.label == label and fits(t, wanted) and twice(t)]
-    near = min(seen, key=lambda t: _apart_m(t, at), default=None)
-    return near if near is not None and _apart_m(near, at) <= MOVED_M else None
-
-
-def _apart_m(thing: Thing, at: tuple[float, float, float]) -> float:
-    return hypot(thing.x_m - at[0], thing.y_m - at[1])
+    near = min(seen, key=lambda t: apart_m(t, at), default=None)
+    return near if near is not None and apart_m(near, at) <= MOVED_M else None
 
 
 def _look_anew(scene: Scene[ApproachState], wanted: WantedObject | None) -> SkillAction:
@@ -235,3 +235,36 @@ def _fail_moved(scene: Scene[ApproachState]) -> Fail:
 def _list_rooms(state: ApproachState) -> tuple[str, ...]:
     """Return the rooms that were looked round in before the thing was driven up to."""
     return state.rooms if isinstance(state, GoToObjectState) else ()
+
+
+FLOOR_M = 0.12
+"""What lies lower is driven onto."""
+
+
+def go_to_point(scene: Scene[GoToPointState]) -> SkillAction:
+    """Return the leg to the point that a pixel shows, onto floor or short of a thing there.
+
+    Law: the point counts in the picture that the plan was made on, from where that was taken; a
+    wall, the sky and what lies outside the fence are refused before anything moves. No brain that
+    plans is shown a picture or offered this step (``Means.plannable``), so no sign can choose the
+    point, and nobody is asked; where a model that looks points, see model_pointing.py. Verdict: the
+    bridge reached the leg. Budget: one leg.
+    """
+    pose, state = scene.pose, scene.state
+    if pose is None:
+        return Retry()
+    if state.reached:
+        return Finish()
+    if state.stand > 0:
+        return point_refused("point_no_route")
+    if state.at is not None:
+        return approach(scene, pose, None)
+    if scene.answer is None:
+        return AskImage(x=scene.step.x or 0, y=scene.step.y or 0, then=state)
+    at = scene.answer.at
+    if at is None:
+        return point_refused(scene.answer.failure or "point_no_depth")
+    if at[2] > FLOOR_M:
+        return set_off(scene, pose, state, at)
+    heading = bearing(pose, at[:2])
+    return leg_to(pose, at[:2], heading, state.but(reached=True), state.but(stand=1))

@@ -14,9 +14,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from math import pi
 from typing import TYPE_CHECKING
 
-from planner.language.catalogue import CATALOGUE, build, join, message, raw, say
+from planner.language.catalogue import CATALOGUE, build, join, list_names, message, raw, say
 from planner.language.folding import has_chinese, is_chinese
 from planner.language.formatting import definite
 from planner.language.questions import looks_round
@@ -31,12 +32,9 @@ from planner.skills.actions import (
     SkillAction,
 )
 from planner.skills.conditions import agree, with_answer
-from planner.skills.directions import direction, goes_round, list_directions
 from planner.skills.image_errors import why_silent
 from planner.skills.look_around import LOOKS, look_round
-from planner.skills.object_query import unknown_kind
-from planner.skills.result_text import unknown_name
-from planner.skills.scene_answers import SceneAnswer, answer
+from planner.skills.scene_answers import SceneAnswer, answer, tell_unknown
 from planner.skills.search import begin, spots
 from planner.skills.skill_state import LookStage, LookState
 from planner.skills.viewpoints import HERE, Viewpoint, room_at
@@ -54,9 +52,9 @@ NO_DETECTOR = say("look.no_detector")
 def look(scene: Scene[LookState]) -> SkillAction:
     """Return the next look, or the answer."""
     pose, question = scene.pose, scene.step.text or ""
-    unknown = _unknown(scene, question) if scene.state.here is None else None
+    unknown = tell_unknown(scene, question) if scene.state.here is None else None
     if unknown is not None:
-        return unknown
+        return Fail(Code.OBJECT_UNKNOWN, "object_unknown", unknown)
     if pose is None:
         return Retry()
     scene = begin(scene, pose, None)
@@ -105,17 +103,6 @@ def _never_there(scene: Scene[LookState]) -> Fail:
     target = scene.facts.targets.get(scene.step.place or "")
     name = target.name if target is not None else say_same("?")
     return Fail(Code.NO_ROUTE, "no_route", message(Code.NO_ROUTE, place=definite(name)))
-
-
-def _unknown(scene: Scene[LookState], question: str) -> Fail | None:
-    """Refuse, where no vision model is set, a question about a kind that these eyes don't know."""
-    eyes = scene.eyes
-    if eyes.model:
-        return None
-    name = unknown_kind(question, scene.facts, scene.language, eyes.classes)
-    if name is None:
-        return None
-    return Fail(Code.OBJECT_UNKNOWN, "object_unknown", unknown_name(name, eyes.classes))
 
 
 def _model_alone(scene: Scene[LookState]) -> bool:
@@ -215,3 +202,39 @@ def _alone(answer: ImageAnswer, state: LookState, pose: Pose2) -> Bilingual | No
     if len(faced) < 2 or answer.shown == len(faced):
         return None
     return _facing(state, pose)
+
+
+AHEAD = say("direction.ahead")
+_NAMES = (
+    AHEAD,
+    say("direction.ahead_on_left"),
+    say("direction.left"),
+    say("direction.behind_on_left"),
+    say("direction.behind"),
+    say("direction.behind_on_right"),
+    say("direction.right"),
+    say("direction.ahead_on_right"),
+)
+"""Counter-clockwise, an eighth of a turn each."""
+SLACK_RAD = 0.3
+"""Two neighbours may be so much farther apart: the bridge reaches a heading within 0.1."""
+
+
+def direction(left_rad: float) -> Bilingual:
+    """Name a direction by its angle to the left of ahead."""
+    return _NAMES[round(wrap(left_rad) * len(_NAMES) / (2.0 * pi)) % len(_NAMES)]
+
+
+def goes_round(faced: tuple[float, ...], views: int) -> bool:
+    """Tell whether these directions leave no gap in a whole turn of so many views."""
+    if not faced:
+        return False
+    at = sorted(angle % (2.0 * pi) for angle in faced)
+    gaps = [after - before for before, after in zip(at, (*at[1:], at[0] + 2.0 * pi), strict=True)]
+    return max(gaps) <= 2.0 * pi / views + SLACK_RAD
+
+
+def list_directions(names: tuple[Bilingual, ...]) -> Bilingual:
+    """Return names as a list, each once: ``ahead, left and behind``."""
+    once = tuple(dict.fromkeys(names))
+    return list_names(once, "joint.and")

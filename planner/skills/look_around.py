@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from planner.skills.actions import DriveLeg, Observe, Scene, Way
 from planner.skills.object_matching import away_m
-from planner.skills.skill_state import LookRoundState
-from planner.skills.state_base import SkillStateBase
+from planner.skills.skill_state import LookRoundState, SkillStateBase
 from planner.skills.viewpoints import HERE, Viewpoint, room_at
 from wire import Pose2, wrap
 

@@ -35,14 +35,12 @@ from planner.skills.longer_search import offer_more, takes_else, tell_else, tell
 from planner.skills.look_around import look_round
 from planner.skills.result_text import NOWHERE, room_name
 from planner.skills.search import (
-    affords,
     begin,
-    cap_leg,
     find_spent_budget,
+    keep_in_bounds,
     list_unseen,
     ran_out,
     spots,
-    stop_short,
 )
 from planner.skills.search_bounds import bound_pictures
 from planner.skills.skill_state import DirectionSeen, ModelSearchState
@@ -105,9 +103,8 @@ def _look_on(scene: Scene[Seeking], pose: Pose2) -> SkillAction | Seeking:
         then = next_.then.but(asking=True, stood=stood)
         return replace(next_, looks=LOOKS, state=scene.state, then=then, bill=bill(scene))
     if isinstance(next_, DriveLeg):
-        if not affords(scene, pose, next_):
-            return stop_short(scene, next_)
-        return replace(cap_leg(scene, next_), state=scene.state, bill=bill(scene))
+        act = keep_in_bounds(scene, pose, next_)
+        return replace(act, bill=bill(scene)) if isinstance(act, DriveLeg) else act
     return next_
 
 

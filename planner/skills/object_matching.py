@@ -162,6 +162,11 @@ def away_m(pose: Pose2, at: tuple[float, float]) -> float:
     return hypot(at[0] - pose.x_m, at[1] - pose.y_m)
 
 
+def apart_m(thing: Thing, at: tuple[float, float, float]) -> float:
+    """Return how far a thing is from a point on the floor [m]."""
+    return hypot(thing.x_m - at[0], thing.y_m - at[1])
+
+
 def bearing(pose: Pose2, at: tuple[float, float]) -> float:
     """Return the heading in ``map`` at which the robot faces a point [rad]."""
     return atan2(at[1] - pose.y_m, at[0] - pose.x_m)

@@ -28,9 +28,8 @@ from planner.skills.drive_to_place import drive_to
 from planner.skills.look_around import look_round
 from planner.skills.object_matching import drop_doubles, list_confirmed
 from planner.skills.result_text import list_things, room_name
-from planner.skills.search import make_filter
-from planner.skills.skill_state import PatrolState
-from planner.skills.state_base import SkillStateBase
+from planner.skills.search import PlaceFilter
+from planner.skills.skill_state import PatrolState, SkillStateBase
 from planner.skills.viewpoints import HERE, Viewpoint, room_of
 
 if TYPE_CHECKING:
@@ -83,7 +82,7 @@ def _look(scene: Scene[PatrolState], pose: Pose2, place: str) -> SkillAction:
     next_ = look_round(at, pose, (spot,), None)
     if isinstance(next_, (DriveLeg, Observe)):
         return replace(next_, state=state)
-    inside, since_s = make_filter(at), scene.now_s - scene.spent_s + (state.arrived_s or 0.0)
+    inside, since_s = PlaceFilter(at), scene.now_s - scene.spent_s + (state.arrived_s or 0.0)
     seen = drop_doubles(t for t in list_confirmed(scene.sight, None, since_s) if inside(t))
     code = "patrol.saw" if seen else "patrol.saw_nothing"
     return _end_stop(scene, _name(scene, code, place, list_things(seen) if seen else None))

@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, list_names, message, quantity, say
 from planner.language.object_classes import HOME
-from planner.language.object_names import list_kinds as labels_listed
-from planner.language.object_names import name_object, named_several, singles_out, told_color
+from planner.language.object_names import (
+    list_kinds,
+    name_object,
+    named_several,
+    singles_out,
+    told_color,
+)
 from planner.plan import Bilingual, Code, say_same
 from planner.skills.spatial_relations import name_related
 
@@ -35,14 +40,10 @@ def name_one(label: str, color: str | None = None) -> Bilingual:
     return name_count(1, label, color)
 
 
-def known_things(classes: tuple[str, ...]) -> Bilingual:
-    """List the things that can be recognised; where unknown, those of most home detectors."""
-    return labels_listed(classes or [kind.id for kind in HOME])
-
-
 def unknown_name(name: str, classes: tuple[str, ...]) -> Bilingual:
-    """Tell that these eyes don't know such a thing, and the things they know."""
-    return message(Code.OBJECT_UNKNOWN, name=say_same(name), known=known_things(classes))
+    """Tell that these eyes don't know such a thing, and those they know: else most detectors'."""
+    known = list_kinds(classes or [kind.id for kind in HOME])
+    return message(Code.OBJECT_UNKNOWN, name=say_same(name), known=known)
 
 
 def unknown_words(words: str, classes: tuple[str, ...], kind: str = "") -> Bilingual:

@@ -14,7 +14,7 @@ from planner.plan import Bilingual, say_same
 from planner.skills.object_matching import drop_doubles, fits, list_confirmed, sure
 from planner.skills.object_query import FLOOR, sought_in, unknown_kind
 from planner.skills.result_text import list_things, name_count, unknown_name
-from planner.skills.search import make_filter
+from planner.skills.search import PlaceFilter
 from planner.skills.spatial_relations import judge_relation, on_floor
 
 if TYPE_CHECKING:
@@ -59,10 +59,10 @@ class SceneAnswer(NamedTuple):
 def answer(scene: Scene[Any], question: str) -> SceneAnswer:
     """Tell the sights of this step; where one thing is asked for, whether it was there."""
     sought = sought_in(question, scene.facts, scene.step.place, scene.eyes.classes)
-    late = _unknown(scene, question) if sought.what is None else None
-    if late is not None:
+    late = tell_unknown(scene, question) if sought.what is None else None
+    if late is not None:  # at the beginning they told none
         return SceneAnswer(late)
-    inside, since_s = make_filter(scene), scene.now_s - scene.spent_s
+    inside, since_s = PlaceFilter(scene), scene.now_s - scene.spent_s
     seen = drop_doubles(t for t in list_confirmed(scene.sight, None, since_s) if inside(t))
     fitting = tuple(t for t in seen if fits(t, sought.what))
     at = _at(scene, sought.by or sought.what)
@@ -85,8 +85,8 @@ def answer(scene: Scene[Any], question: str) -> SceneAnswer:
     return _plainly(sought.what, fitting, at)
 
 
-def _unknown(scene: Scene[Any], question: str) -> Bilingual | None:
-    """Say that the eyes don't know the kind that is asked for: at the beginning they told none."""
+def tell_unknown(scene: Scene[Any], question: str) -> Bilingual | None:
+    """Say, where no vision model is set, that the eyes don't know the kind that is asked for."""
     eyes = scene.eyes
     name = unknown_kind(question, scene.facts, scene.language, eyes.classes)
     return unknown_name(name, eyes.classes) if name is not None and not eyes.model else None

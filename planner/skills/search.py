@@ -20,9 +20,10 @@ from planner.skills.object_matching import (
     bearing,
     fits,
     is_placed,
-    list_confirmed,
     may_fit,
+    seen_now,
     spot_of,
+    sure,
     turn_to,
 )
 from planner.skills.search_bounds import (
@@ -72,23 +73,22 @@ def search(
     """Return the next act, or the thing that was found, or the state when it was not."""
     scene = begin(scene, pose, wanted, first=True)
     next_ = _next(scene, pose, wanted)
-    if isinstance(next_, DriveLeg) and not affords(scene, pose, next_):
-        return stop_short(scene, next_)
     if isinstance(next_, (DriveLeg, Observe)):  # the order holds from its first act on
-        return replace(cap_leg(scene, next_), state=scene.state)
+        return keep_in_bounds(scene, pose, next_)
     return next_
 
 
 def _next(
     scene: Scene[Search], pose: Pose2, wanted: WantedObject
 ) -> DriveLeg | Observe | Thing | Search:
-    inside = make_filter(scene)
-    seen = [t for t in _list_confirmed(scene, wanted) if inside(t)]
+    inside = PlaceFilter(scene)
+    seen = [t for t in seen_now(scene, wanted) if sure(t) and inside(t)]
     if seen:
         return min(seen, key=lambda t: away_m(pose, (t.x_m, t.y_m)))
     if find_spent_budget(scene) is not None:
         return scene.state
-    known = [t for t in _worth(scene, wanted) if inside(t) and t.id not in scene.state.tried]
+    worth = (t for t in _list_remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted))
+    known = [t for t in worth if inside(t) and t.id not in scene.state.tried]
     near = [t for t in known if _reaches(scene, pose, (t.x_m, t.y_m))]
     if not near:
         next_ = look_round(scene, pose, spots(scene, pose), wanted)
@@ -104,30 +104,25 @@ def _next(
     return _look_again(scene, pose, nearest, wanted)
 
 
-def affords(scene: Scene[Any], pose: Pose2, next_: DriveLeg | Observe) -> bool:
-    """Return whether the metres left are likely to last for the next act and the plan's rest."""
-    if not isinstance(next_, DriveLeg) or next_.way is Way.SPIN:
-        return True
-    return _reaches(scene, pose, (next_.goal.x_m, next_.goal.y_m))
-
-
 def _reaches(scene: Scene[Any], pose: Pose2, at: tuple[float, float]) -> bool:
     ahead_m = ROUND_ABOUT * away_m(pose, at) + way_after_m(at, scene.afterwards)
     return scene.spent_m + ahead_m <= _bounds(scene).end_m
 
 
-def stop_short(scene: Scene[Tour], leg: DriveLeg) -> Tour:
-    """Return the state of a search without its next leg, with all that was looked at before it."""
-    state: Tour = leg.otherwise or scene.state  # type: ignore[assignment]  # of the same skill
-    return state.but(missed=None, out_of_metres=True)
+def keep_in_bounds(
+    scene: Scene[Tour], pose: Pose2, act: DriveLeg | Observe
+) -> DriveLeg | Observe | Tour:
+    """Return an act that ends with the search's own metres; its last state where they won't last.
 
-
-def cap_leg(scene: Scene[Any], act: DriveLeg | Observe) -> DriveLeg | Observe:
-    """Return an act of a search that ends with the search's own metres."""
-    if not isinstance(act, DriveLeg) or act.way is Way.SPIN:
-        return act
-    left_m = max(0.0, _bounds(scene).end_m - scene.spent_m)
-    return replace(act, limit_m=left_m if act.limit_m is None else min(act.limit_m, left_m))
+    They are to last for the act and for the plan's rest.
+    """
+    if isinstance(act, DriveLeg) and act.way is not Way.SPIN:
+        if not _reaches(scene, pose, (act.goal.x_m, act.goal.y_m)):
+            state: Tour = act.otherwise or scene.state  # type: ignore[assignment]  # its skill's own
+            return state.but(missed=None, out_of_metres=True)
+        left_m = max(0.0, _bounds(scene).end_m - scene.spent_m)
+        act = replace(act, limit_m=left_m if act.limit_m is None else min(act.limit_m, left_m))
+    return replace(act, state=scene.state)
 
 
 def find_spent_budget(scene: Scene[SearchState] | Scene[ModelSearchState]) -> str | None:
@@ -161,11 +156,6 @@ def may_go_on(scene: Scene[Any]) -> bool:
     """Tell whether nothing but its own bounds ended a search."""
     shown = getattr(scene.state, "shown", 0)
     return (shown > 0 and shown >= bound_pictures(scene)) or find_spent_budget(scene) is not None
-
-
-def make_filter(scene: Scene[Any]) -> PlaceFilter:
-    """Return the test whether a thing lies where the step is to look."""
-    return PlaceFilter(scene)
 
 
 class PlaceFilter:
@@ -247,7 +237,10 @@ def begin(
     """
     if scene.state.here is not None:
         return scene
-    known = tuple(t for t in scene.sight.things if wanted is not None and _leads(t, wanted))
+    # Where its neighbour is, it may well be.
+    known = tuple(
+        t for t in scene.sight.things if wanted is not None and fits(t, wanted.by or wanted)
+    )
     here = (round(pose.x_m, 3), round(pose.y_m, 3))
     place = scene.facts.targets.get(scene.step.place or "")
     order = (
@@ -258,25 +251,9 @@ def begin(
     return scene.but(scene.state.but(here=here, order=order))
 
 
-def _leads(thing: Thing, wanted: WantedObject) -> bool:
-    """Tell whether a thing says in which room to begin: where its neighbour is, it may well be."""
-    return fits(thing, wanted.by or wanted)
-
-
-def _list_confirmed(scene: Scene[Any], wanted: WantedObject) -> tuple[Thing, ...]:
-    if scene.gazed_s is None:
-        return ()
-    return list_confirmed(scene.sight, wanted, scene.gazed_s)
-
-
-def _worth(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
-    """Return the things worth a second look: remembered ones, and unsure ones of this gaze."""
-    return [t for t in _list_remembered(scene, wanted) if fits(t, wanted) or may_fit(t, wanted)]
-
-
 def alike(scene: Scene[Any], wanted: WantedObject) -> list[Thing]:
     """Return the things that would fit if their colour were seen wrongly, as from afar."""
-    inside, others = make_filter(scene), _list_remembered(scene, wanted)
+    inside, others = PlaceFilter(scene), _list_remembered(scene, wanted)
     return [
         t for t in others if inside(t) and not fits(t, wanted) and may_be(t.color, wanted.color)
     ]

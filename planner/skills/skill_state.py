@@ -10,15 +10,31 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import StrEnum
 from types import MappingProxyType
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import Field
 
 from planner.plan import Bilingual, Frozen, PatrolSighting
-from planner.skills.state_base import SkillStateBase
 
 Point3 = tuple[float, float, float]
 """x, y, height [m] in ``map``."""
+
+
+class SkillStateBase(Frozen):
+    """Be the base of what a skill remembers."""
+
+    def but(self, **changes: Any) -> Self:
+        """Return this state with changes.
+
+        Raises:
+            TypeError: this skill remembers no such thing.
+        """
+        foreign = changes.keys() - type(self).model_fields.keys()
+        if foreign:
+            name = type(self).__name__
+            known = ", ".join(sorted(type(self).model_fields))
+            raise TypeError(f"{name} has no {', '.join(sorted(foreign))}; it has {known}")
+        return self.model_copy(update=changes)
 
 
 class LookRoundState(SkillStateBase):
@@ -315,27 +331,14 @@ class ToolState(SkillStateBase):
     is_sent: bool = False
 
 
-SkillState = Annotated[
+_State = (
     AskState | CountState | ExploreState | FindState | FollowPersonState | GoToObjectState
     | GoToPointState | LookState | PatrolState | StandAtState | ToolState
-    | WaitForState,
-    Field(discriminator="kind"),
-]  # fmt: skip
+    | WaitForState
+)  # fmt: skip
+SkillState = Annotated[_State, Field(discriminator="kind")]
 STATES: Mapping[str, type[SkillStateBase]] = MappingProxyType(
-    {
-        "ask": AskState,
-        "count": CountState,
-        "explore": ExploreState,
-        "find": FindState,
-        "follow": FollowPersonState,
-        "go_to_object": GoToObjectState,
-        "go_to_point": GoToPointState,
-        "look": LookState,
-        "patrol": PatrolState,
-        "stand_at": StandAtState,
-        "use_tool": ToolState,
-        "wait_for": WaitForState,
-    }
+    {variant.model_fields["kind"].default: variant for variant in get_args(_State)}
 )
 """By the kind of step; the other kinds remember nothing."""
 

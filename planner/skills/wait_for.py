@@ -24,11 +24,11 @@ from planner.skills.actions import (
     SkillAction,
     Stand,
 )
+from planner.skills.conditions import seconds_until
 from planner.skills.find import unknown
 from planner.skills.object_matching import fits, fresh, lasting, wanted_of
 from planner.skills.result_text import name_one
 from planner.skills.skill_state import WaitForState
-from planner.skills.wall_clock import seconds_until
 
 SEEN_S = 1.5
 """What was seen longer ago is not in sight."""

@@ -30,8 +30,8 @@ from planner.skills.skill_state import (
     LookState,
     PointingStage,
     SkillState,
+    SkillStateBase,
 )
-from planner.skills.state_base import SkillStateBase
 from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.former_records import (
     APPROACH,

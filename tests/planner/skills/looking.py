@@ -6,7 +6,7 @@ from typing import Any
 
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.skills import Eyesight, act_of
-from planner.skills.state_base import SkillStateBase
+from planner.skills.skill_state import SkillStateBase
 from tests.planner.skills.scenes import scene
 from wire import CameraConfig, Pose2
 

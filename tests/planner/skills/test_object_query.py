@@ -11,9 +11,10 @@ from planner.language.questions import Relation
 from planner.perception.snapshot import LookSnapshot, Sight
 from planner.plan import Bilingual, Code, Language
 from planner.site.site_view import SiteView, Target
-from planner.skills import DriveLeg, Eyesight, Fail, Observe, WantedObject, act_of
+from planner.skills import DriveLeg, Eyesight, Fail, Observe, act_of
 from planner.skills.object_matching import anybody_for
 from planner.skills.object_query import FLOOR, ObjectQuery, sought_in, unknown_kind
+from planner.skills.perception import WantedObject
 from tests.planner.mission.fakes import FACTS, room
 from tests.planner.skills.scenes import said_of, scene
 from wire import CameraConfig, Pose2

@@ -17,8 +17,13 @@ from planner.skills import Eyesight, Fail, Finish, ImageAnswer, Observe, Scene, 
 from planner.skills.actions import UNSEEN, AskImage
 from planner.skills.go_to_object import go_to_object
 from planner.skills.look import NO_DETECTOR, look
-from planner.skills.skill_state import GoToObjectState, LookStage, LookState, PointingStage
-from planner.skills.state_base import SkillStateBase
+from planner.skills.skill_state import (
+    GoToObjectState,
+    LookStage,
+    LookState,
+    PointingStage,
+    SkillStateBase,
+)
 from tests.planner.mission.fakes import FACTS
 from tests.planner.skills.looking import NOW_S, at, sight
 from tests.planner.skills.scenes import said_of, scene
@@ -155,13 +160,13 @@ def test_how_a_place_is_that_is_the_thing_itself_is_told_without_naming_it_twice
 def test_an_unknown_kind_is_asked_about_once_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[str] = []
     look = sys.modules["planner.skills.look"]  # its door has the function by that name
-    kind: Callable[..., str | None] = look.unknown_kind
+    tell: Callable[..., Bilingual | None] = look.tell_unknown
 
-    def noted(question: str, *rest: Any) -> str | None:
+    def noted(scene: Any, question: str) -> Bilingual | None:
         calls.append(question)
-        return kind(question, *rest)
+        return tell(scene, question)
 
-    monkeypatch.setattr(look, "unknown_kind", noted)
+    monkeypatch.setattr(look, "tell_unknown", noted)
     state = LookState()
     for _ in range(60):
         act = asked("look around: is there a cup?", ON_IT, state=state)

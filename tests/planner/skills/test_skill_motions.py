@@ -30,7 +30,6 @@ from planner.site import Site
 from planner.site.site_view import facts_of
 from planner.skills import (
     SKILLS,
-    STATES,
     DriveLeg,
     Eyesight,
     Fail,
@@ -47,8 +46,8 @@ from planner.skills import (
     begin_state,
     no_room,
 )
-from planner.skills.skill_state import StandAtState
-from planner.skills.turn import PART_RAD
+from planner.skills.measured_motions import PART_RAD
+from planner.skills.skill_state import STATES, StandAtState
 from tests.conftest import ROOT
 from tests.planner.mission.fakes import FACTS
 from tests.planner.skills.scenes import said_of, scene

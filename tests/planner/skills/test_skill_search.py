@@ -21,14 +21,13 @@ from planner.skills import (
     Finish,
     Observe,
     Question,
-    WantedObject,
     Way,
     act_of,
 )
 from planner.skills.count import count
 from planner.skills.find import find
 from planner.skills.object_matching import picks_out, read_object
-from planner.skills.perception import PictureLimits
+from planner.skills.perception import PictureLimits, WantedObject
 from planner.skills.search_bounds import (
     GRANT_M,
     GRANT_S,
@@ -42,9 +41,14 @@ from planner.skills.search_bounds import (
     bound_search,
     way_after_m,
 )
-from planner.skills.skill_state import CountState, FindState, GoToObjectState, RoomTourState
+from planner.skills.skill_state import (
+    CountState,
+    FindState,
+    GoToObjectState,
+    RoomTourState,
+    SkillStateBase,
+)
 from planner.skills.spatial_relations import stands
-from planner.skills.state_base import SkillStateBase
 from planner.skills.viewpoints import THINGS, in_order, likely_rooms
 from tests.planner.skills.looking import EYES, NOW_S, at, looking, sight, thing
 from tests.planner.skills.scenes import said_of, scene

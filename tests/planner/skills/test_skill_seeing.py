@@ -20,7 +20,6 @@ from planner.skills import (
     Observe,
     Question,
     SkillAction,
-    WantedObject,
     Way,
     act_of,
 )
@@ -33,7 +32,7 @@ from planner.skills.object_matching import (
     fits,
     list_confirmed,
 )
-from planner.skills.perception import ImageAnswer
+from planner.skills.perception import ImageAnswer, WantedObject
 from planner.skills.result_text import found_at, list_things, looked_in, name_count
 from planner.skills.scene_answers import SceneAnswer
 from planner.skills.skill_state import (

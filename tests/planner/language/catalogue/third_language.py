@@ -30,7 +30,7 @@ from planner.plan import AnswerPlan as Reply
 from planner.site import Site
 from planner.site.site_view import facts_of, vocabulary_of
 from planner.skills import Eyesight, act_of
-from planner.skills.directions import direction
+from planner.skills.look import direction
 from planner.skills.perception import ImageAnswer, WantedObject
 from planner.skills.result_text import (
     found_at,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planner.skills.wall_clock import clock_time, is_between, seconds_until
+from planner.skills.conditions import clock_time, is_between, seconds_until
 
 HOUR_S = 3600.0
 
