@@ -12,9 +12,9 @@ from planner.brain.interface import Exchange, Observation
 from planner.brain.situation import Situation
 from planner.mission.state import Mission
 from planner.navigation.obstruction import Obstruction
+from planner.navigation.route import RouteRequest
 from planner.plan import ChangedOrder, Language, LastOrder, Span, StepPlan
 from planner.skills.actions import AskImage, Way
-from wire import Pose2
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +74,10 @@ class AskRoute:
 
     id: str
     ticket: int
-    start: Pose2
-    goal: Pose2
+    request: RouteRequest
+    """What is searched; the points that the lidar sees and the shut ways come with the search."""
     heading: bool
+    """The goal's yaw matters, too."""
     obstacles: bool
     """Count what the lidar sees now."""
     way: Way = Way.ROUTE
@@ -85,17 +86,6 @@ class AskRoute:
     """Ways that are remembered as shut, whether the lidar sees them now or not."""
     speed_mps: float | None = None
     """The fastest that this way may be driven; None: as the route says."""
-    doubted: bool = False
-    """Only a way round everything that is remembered helps; aside, only where the other one has no
-    shorter way aside."""
-    sees: tuple[float, float] | None = None
-    """The end is to see this point of the map, and to face it."""
-    sees_from_m: float = 0.0
-    """No nearer to it."""
-    keep_right_m: float = 0.0
-    """So far leave room on the left, for somebody who comes."""
-    passes_m: float = 0.0
-    """The radius of who is to pass a robot that stands aside; 0: a person's."""
 
 
 @dataclass(frozen=True, slots=True)

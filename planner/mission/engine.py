@@ -186,7 +186,8 @@ class Engine:
             if isinstance(effect, AskRoute) and self._pilot is not None:
                 carried.extend(self._aim(self._pilot, effect, now_s))
             elif isinstance(effect, AskRoute) and effect.way is Way.SPIN:
-                here = (RoutePoint(effect.start.x_m, effect.start.y_m, SPIN_MPS),)
+                start = effect.request.start
+                here = (RoutePoint(start.x_m, start.y_m, SPIN_MPS),)
                 carried.extend(self._take_route(effect, here, None, now_s))
             else:
                 carried.append(effect)
@@ -196,7 +197,7 @@ class Engine:
         """Answer a leg's question for its route: Nav2 finds one itself, to a pose and no other."""
         if ask.way in (Way.EXPLORE, Way.ASIDE):
             return self._take_route(ask, None, "no_route", now_s)
-        ends = (ask.start, ask.goal)
+        ends = start, goal = ask.request.start, ask.request.goal
         points = tuple(RoutePoint(end.x_m, end.y_m, SPIN_MPS) for end in ends)
         before = self._following
         effects = self._take_route(ask, points, None, now_s)
@@ -204,7 +205,7 @@ class Engine:
         if taken is not None and taken is not before:
             heading = ask.heading or ask.way is not Way.ROUTE
             leg = (taken.mission, taken.leg)
-            pilot.aim(leg, ask.start, ask.goal, now_s, heading=heading)
+            pilot.aim(leg, start, goal, now_s, heading=heading)
         return effects
 
     def _take_route(
@@ -216,13 +217,13 @@ class Engine:
         floor: FloorReport | None = None,
         faces: tuple[float, float] | None = None,
     ) -> tuple[Effect, ...]:
-        short_m, end_m, length_m = 0.0, None, 0.0
+        goal, short_m, end_m, length_m = ask.request.goal, 0.0, None, 0.0
         if points is not None:
             points = _slow_down(points, ask.speed_mps)
-            yaw_rad = ask.goal.yaw_rad if faces is None else _bearing(points[-1], faces)
+            yaw_rad = goal.yaw_rad if faces is None else _bearing(points[-1], faces)
             self._path = LegPath.of(points, yaw_rad if ask.heading else None)
             end_m, length_m = (points[-1].x_m, points[-1].y_m), self._path.length_m
-            short_m = hypot(ask.goal.x_m - points[-1].x_m, ask.goal.y_m - points[-1].y_m)
+            short_m = hypot(goal.x_m - points[-1].x_m, goal.y_m - points[-1].y_m)
         code = failure if points is None else None
         event = Routed(ask.id, ask.ticket, code, short_m, end_m, length_m, floor)
         effects = self._advance(event, now_s)

@@ -26,6 +26,7 @@ from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
+from planner.navigation import RouteRequest
 from planner.plan import Code, Outcome, PauseReason
 from planner.skills import Fail, Way, no_room
 from planner.skills.measured_motions import along, turned_rad
@@ -64,14 +65,20 @@ def ask_route(
     seen = purpose is RoutePurpose.DETOUR or way is Way.STRAIGHT or bool(shut)
     heading = leg.act.heading if own is None else way is Way.SPIN
     speed_mps = own.rung.speed_mps if own is not None and way is Way.STRAIGHT else None
-    doubted = purpose in (RoutePurpose.DOUBT, RoutePurpose.KEEP_RIGHT)
-    ask = AskRoute(mission.id, ticket, start, goal, heading, seen, way, shut, speed_mps, doubted)
+    request = RouteRequest(
+        *(start, goal),
+        straight=way is Way.STRAIGHT,
+        aside=way is Way.ASIDE,
+        explore=way is Way.EXPLORE,
+        strict=purpose in (RoutePurpose.DOUBT, RoutePurpose.KEEP_RIGHT),
+        keep_right_m=keep_right_m,
+    )
     if own is None and way is Way.ROUTE:
-        ask = replace(ask, sees=leg.act.sees, sees_from_m=leg.act.sees_from_m)
+        request = replace(request, sees=leg.act.sees, sees_from_m=leg.act.sees_from_m)
     if own is not None and way is Way.ASIDE:
         wide_m, waits = passes_m(record), waits_for_other(record)
-        ask = replace(ask, passes_m=wide_m, doubted=wide_m > 0.0 and waits)
-    turn.emit(replace(ask, keep_right_m=keep_right_m))
+        request = replace(request, passes_m=wide_m, strict=wide_m > 0.0 and waits)
+    turn.emit(AskRoute(mission.id, ticket, request, heading, seen, way, shut, speed_mps))
 
 
 def take_short(turn: Transaction, leg: Driving, short_m: float) -> None:

@@ -13,7 +13,7 @@ import contextlib
 import logging
 import time
 from collections.abc import Awaitable, Callable, Coroutine
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot
 from typing import Any, Protocol, TypeVar
 
@@ -36,7 +36,6 @@ from planner.mission.state import MissionState
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.navigation.obstruction import points_of
 from planner.plan import Bilingual, Code, GoTo, Outcome, ReturnHome, Step
-from planner.skills import Way
 from planner.skills.perception import ImageAnswer
 from wire import Pose2
 
@@ -190,20 +189,9 @@ class MissionTasks:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
         obstacles += tuple(point for way in ask.shut for point in points_of(way))
         try:
-            request = RouteRequest(
-                *(ask.start, ask.goal, obstacles),
-                straight=ask.way is Way.STRAIGHT,
-                aside=ask.way is Way.ASIDE,
-                passes_m=ask.passes_m,
-                explore=ask.way is Way.EXPLORE,
-                strict=ask.doubted,
-                keep_right_m=ask.keep_right_m,
-                sees=ask.sees,
-                sees_from_m=ask.sees_from_m,
-            )
-            result = await self._router.route(request)
+            result = await self._router.route(replace(ask.request, obstacles=obstacles))
         except RouteFailure as failure:
-            level = logging.DEBUG if ask.doubted else logging.WARNING
+            level = logging.DEBUG if ask.request.strict else logging.WARNING
             log.log(level, "no route for goal %s: %s", ask.id, failure)
             self._answers.routed(ask, None, failure.code)
             return

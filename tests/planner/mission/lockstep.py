@@ -127,14 +127,14 @@ class Together:
 
     def lay(self, ask: AskRoute) -> tuple[RoutePoint, ...]:
         """Return a straight way, or one with a bend in its middle."""
-        goal = self.ends or ask.goal
+        start, goal = ask.request.start, self.ends or ask.request.goal
         if ask.way is Way.ASIDE and self.stays_aside:
-            return (RoutePoint(ask.start.x_m, ask.start.y_m, 0.05),)
-        if not (ask.doubted and self.aside_m):
-            return straight(ask.start, goal)
-        middle_m = ((ask.start.x_m + goal.x_m) / 2, (ask.start.y_m + goal.y_m) / 2)
+            return (RoutePoint(start.x_m, start.y_m, 0.05),)
+        if not (ask.request.strict and self.aside_m):
+            return straight(start, goal)
+        middle_m = ((start.x_m + goal.x_m) / 2, (start.y_m + goal.y_m) / 2)
         bend = Pose2(middle_m[0], middle_m[1] + self.aside_m, 0.0)
-        return (*straight(ask.start, bend), *straight(bend, goal)[1:])
+        return (*straight(start, bend), *straight(bend, goal)[1:])
 
     def sync(self) -> None:
         """Let the disk catch up."""

@@ -177,7 +177,7 @@ class Telling(Together):
 
     def shut(self, poses: tuple[Pose2, ...]) -> None:
         """Leave no way to these poses."""
-        self.way = lambda ask: SHUT if ask.goal in poses else None
+        self.way = lambda ask: SHUT if ask.request.goal in poses else None
 
     def play(self, *thoughts: Any, limit_s: float = 240.0) -> Mission:
         """Let a goal with these thoughts end: questions are answered in turn, plans confirmed."""

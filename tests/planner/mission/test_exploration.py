@@ -44,8 +44,8 @@ class Exploring(Together):
         if failure is not None:
             self.carry(self.engine.take_route(effect, None, failure, self.now_s))
             return
-        seen = [spot for spot in self.spots if abs(spot.x_m - effect.start.x_m) > 0.3]
-        points = straight(effect.start, seen[0] if seen else effect.start)
+        seen = [spot for spot in self.spots if abs(spot.x_m - effect.request.start.x_m) > 0.3]
+        points = straight(effect.request.start, seen[0] if seen else effect.request.start)
         floor = FloorReport(self.known_m2, explored=not seen)
         self.carry(self.engine.take_route(effect, points, None, self.now_s, floor))
 

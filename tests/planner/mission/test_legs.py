@@ -49,7 +49,7 @@ def test_no_way_round_fails_after_some_tries(world: Together) -> None:
 
 
 def test_no_route_fails_and_the_next_goal_runs(world: Together) -> None:
-    world.way = lambda ask: "no_route" if ask.goal.x_m > 3 else None
+    world.way = lambda ask: "no_route" if ask.request.goal.x_m > 3 else None
     first, second = world.give(go("kitchen", "hall")), world.give(go("dock"))
     mission = world.goal(first)
     assert (mission.state, mission.reason) == (FAILED, "no_route")

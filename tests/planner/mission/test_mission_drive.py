@@ -59,7 +59,7 @@ def test_there_and_back_ends_where_the_goal_was_accepted(world: Together) -> Non
     goal = world.give(plan)
     done = world.run_until(goal, SUCCEEDED)
     assert [s.state for s in done.steps] == [StepState.SUCCEEDED] * 3
-    assert world.routes[1].goal == Pose2(0.5, 0.25, 0.0)
+    assert world.routes[1].request.goal == Pose2(0.5, 0.25, 0.0)
     assert [ask.heading for ask in world.routes] == [False, True, True]
     assert done.leg == 3
 

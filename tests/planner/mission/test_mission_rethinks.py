@@ -71,7 +71,7 @@ def test_new_steps_replace_the_rest_and_know_what_was_heard() -> None:
 
 def test_a_failed_step_is_thought_about_with_what_went_wrong() -> None:
     world = rethinking(plan(GoTo(place="kitchen")), plan(Say(text="the door is shut")))
-    world.way = lambda ask: SHUT if ask.goal == FACTS.targets["kitchen"].pose else None
+    world.way = lambda ask: SHUT if ask.request.goal == FACTS.targets["kitchen"].pose else None
     goal = world.give(None)
     done = world.run_until(goal, SUCCEEDED)
     assert [(s.kind, s.state) for s in done.steps] == [
@@ -171,7 +171,7 @@ def test_a_question_under_way_is_asked_and_its_answer_thought_about() -> None:
 def test_another_destination_than_was_named_needs_a_yes(new: Any, named: str) -> None:
     world = rethinking(go("kitchen"), plan(new))
     world.engine.book = replace(world.book, eyes=Eyesight(CameraConfig()))
-    world.way = lambda ask: SHUT if ask.goal == FACTS.targets["kitchen"].pose else None
+    world.way = lambda ask: SHUT if ask.request.goal == FACTS.targets["kitchen"].pose else None
     goal = world.give(None)
     mission = world.goal(goal)
     assert (mission.state, mission.reason) == (GoalState.AWAITING_CONFIRMATION, "new_place")
@@ -195,7 +195,7 @@ def test_another_destination_than_was_named_needs_a_yes(new: Any, named: str) ->
 )
 def test_a_way_that_was_in_the_plan_needs_no_yes(first: StepPlan, again: StepPlan) -> None:
     world = rethinking(first, again)
-    world.way = lambda ask: SHUT if ask.goal == FACTS.targets["kitchen"].pose else None
+    world.way = lambda ask: SHUT if ask.request.goal == FACTS.targets["kitchen"].pose else None
     world.run_until(world.give(None), SUCCEEDED)
 
 
@@ -269,7 +269,7 @@ DINNER = Say(text="dinner is ready")
 def shut(world: Rethinking, *places: str) -> Rethinking:
     """Leave no way to some places."""
     poses = [FACTS.targets[place].pose for place in places]
-    world.way = lambda ask: "no_route" if ask.goal in poses else None
+    world.way = lambda ask: "no_route" if ask.request.goal in poses else None
     return world
 
 

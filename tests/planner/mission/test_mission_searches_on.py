@@ -87,7 +87,7 @@ def test_a_yes_goes_on_in_the_rooms_that_were_left_and_under_a_grant_of_its_own(
     ended = large.goal(goal)
     assert ended.state is (GoalState.FAILED if step.kind == "find" else GoalState.SUCCEEDED)
     assert grants(large) == {goal, f"{goal}.1"}
-    driven_to = {HOME_AT.get(ask.goal.x_m) for ask in large.routes[before:]} - {None}
+    driven_to = {HOME_AT.get(ask.request.goal.x_m) for ask in large.routes[before:]} - {None}
     assert set(left) <= driven_to, "each room that was left"
     assert ended.steps[0].rooms == tuple(mission.skill_state.order)  # type: ignore[union-attr]
     assert "I did not look in" not in told(ended)

@@ -25,7 +25,7 @@ def come(world: Together, seconds: float, far_m: float = 3.0) -> None:
 
 
 def asked(world: Together) -> list[AskRoute]:
-    return [ask for ask in world.routes if ask.keep_right_m > 0.0]
+    return [ask for ask in world.routes if ask.request.keep_right_m > 0.0]
 
 
 def test_a_way_on_the_right_is_taken_at_once_and_says_so(world: Together) -> None:
@@ -35,8 +35,8 @@ def test_a_way_on_the_right_is_taken_at_once_and_says_so(world: Together) -> Non
     assert leg is not None
     assert leg.doubt is not None
     assert (leg.leg, leg.doubt.code, leg.doubt.at_m) == (2, RIGHT, AT)
-    assert asked(world)[0].doubted
-    assert 1.0 < asked(world)[0].keep_right_m < 4.0
+    assert asked(world)[0].request.strict
+    assert 1.0 < asked(world)[0].request.keep_right_m < 4.0
     assert world.bridge.mode is Mode.ACTIVE
     world.run_until(goal, SUCCEEDED)
 
@@ -51,7 +51,7 @@ def test_one_meeting_is_one_search_and_the_next_is_another(world: Together) -> N
 
 
 def test_without_room_the_leg_is_kept_and_asked_for_once_a_second_at_most(world: Together) -> None:
-    world.way = lambda ask: "no_route" if ask.keep_right_m > 0.0 else None
+    world.way = lambda ask: "no_route" if ask.request.keep_right_m > 0.0 else None
     goal = driving(world)
     come(world, 2.0)
     assert world.goal(goal).leg == 1

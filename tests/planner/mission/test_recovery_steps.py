@@ -114,7 +114,9 @@ def test_backing_off_is_straight_slow_and_short(world: Together) -> None:
     assert len(backs) == 1
     (back,) = backs
     assert back.speed_mps == 0.1
-    gone_m = abs(back.goal.x_m - back.start.x_m) + abs(back.goal.y_m - back.start.y_m)
+    gone_m = abs(back.request.goal.x_m - back.request.start.x_m) + abs(
+        back.request.goal.y_m - back.request.start.y_m
+    )
     assert gone_m <= 0.43
 
 
@@ -185,7 +187,7 @@ def test_a_goal_is_moved_once_and_the_choice_is_kept(world: Together) -> None:
     world.run(4.0)
     assert world.goal(goal).recovery.goal_moved == (3.6, 0.0)
     world.run_until(goal, FAILED, limit_s=60.0)
-    asked = [ask.goal.x_m for ask in world.routes if ask.way is Way.ROUTE]
+    asked = [ask.request.goal.x_m for ask in world.routes if ask.way is Way.ROUTE]
     assert set(asked[2:]) == {3.6}
 
 
@@ -364,7 +366,7 @@ def test_a_silent_sector_is_turned_from_once_and_the_way_is_searched_again(
     assert world.bridge.pose.yaw_rad == pytest.approx(pi / 2), "the fake turns in one status"
     world.run(0.5)
     assert told(world, goal) == ("turn_out",)
-    assert [ask.start.yaw_rad for ask in world.routes] == [0.0, pytest.approx(pi / 2)]
+    assert [ask.request.start.yaw_rad for ask in world.routes] == [0.0, pytest.approx(pi / 2)]
     world.bridge.rows = ()
     world.run_until(goal, SUCCEEDED)
 

@@ -68,7 +68,7 @@ class Doubts:
 
     @property
     def asked(self) -> list[AskRoute]:
-        return [ask for ask in self.world.routes if ask.doubted]
+        return [ask for ask in self.world.routes if ask.request.strict]
 
 
 @pytest.fixture
@@ -106,7 +106,7 @@ def test_without_another_way_the_leg_is_kept_and_says_so_until_the_way_is_open(
     doubts: Doubts,
 ) -> None:
     world = doubts.world
-    world.way = lambda ask: "no_route" if ask.doubted else None
+    world.way = lambda ask: "no_route" if ask.request.strict else None
     doubts.run(2.0)
     assert doubts.code == KEPT
     assert (world.goal(doubts.goal).leg, world.goal(doubts.goal).state) == (1, RUNNING)
@@ -118,7 +118,7 @@ def test_without_another_way_the_leg_is_kept_and_says_so_until_the_way_is_open(
 
 
 def test_a_search_that_breaks_keeps_the_leg(doubts: Doubts) -> None:
-    doubts.world.way = lambda ask: "route_worker_died" if ask.doubted else None
+    doubts.world.way = lambda ask: "route_worker_died" if ask.request.strict else None
     doubts.run(2.0)
     assert (doubts.code, doubts.world.goal(doubts.goal).leg) == (KEPT, 1)
     doubts.world.run_until(doubts.goal, SUCCEEDED)
@@ -155,7 +155,7 @@ def test_a_leg_bends_a_bounded_number_of_times_and_then_arrives(doubts: Doubts) 
 @at_least(30)
 @given(st.lists(st.tuples(st.booleans(), st.integers(1, 15)), max_size=8))
 def test_a_way_round_is_searched_once_a_second_at_most(spans: list[tuple[bool, int]]) -> None:
-    world = Together(way=lambda ask: "no_route" if ask.doubted else None)
+    world = Together(way=lambda ask: "no_route" if ask.request.strict else None)
     world.run(0.2)
     doubts = Doubts(world, driving(world))
     asked_s: list[float] = []
@@ -231,7 +231,9 @@ def test_it_goes_aside_stands_there_and_then_goes_on_to_its_goal(world: Together
     came = len(world.routes)
     come(world)
     (ask,) = asked(world)
-    assert (ask.passes_m, ask.doubted) == (ROBOT_M, True), "only who has the shorter way goes"
+    assert (ask.request.passes_m, ask.request.strict) == (ROBOT_M, True), (
+        "only who has the shorter way goes"
+    )
     assert told(world, goal) == ("give_way",)
     world.run(PASSING_S)
     assert len(world.routes) == came + 1
