@@ -326,7 +326,7 @@ async def _end_with(planner: Planner) -> None:
     And when the bridge holds the fence that now lies on the disk, and this planner an older one:
     whoever supervises it starts it anew, with the map's costs worked out for that fence.
     """
-    while (failure := planner.goals.failure or planner.orders.keeper.failure) is None:
+    while (failure := planner.goals.loop.failure or planner.orders.keeper.failure) is None:
         if planner.detector.refused is not None:
             log.critical("the detector that is set can't be used: %s", planner.detector.refused)
             break

@@ -64,7 +64,7 @@ def find_offer(mission: Mission) -> str | None:
 
 def list_waiting(book: MissionState, besides: str = "") -> tuple[Mission, ...]:
     """Return the goals that wait for a person's word, besides one."""
-    return tuple(m for m in book.missions.values() if m.state in WAITS and m.id != besides)
+    return tuple(book.goals_in(*WAITS, besides=besides))
 
 
 def awaits(mission: Mission, text: str) -> bool:

@@ -75,8 +75,7 @@ def question_of(turn: Transaction, mission: Mission) -> AskBrain:
 
 def _orders_in(book: MissionState, mission: GivenOrder, state: GoalState) -> tuple[str, ...]:
     """Return the other orders in a state, oldest first."""
-    others = (m for m in book.missions.values() if m.state is state and m.id != mission.id)
-    return tuple(m.text[:_QUEUED] for m in sorted(others, key=lambda m: m.order))
+    return tuple(m.text[:_QUEUED] for m in book.goals_in(state, besides=mission.id))
 
 
 def _step(running: Mission) -> str | None:

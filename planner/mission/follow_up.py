@@ -60,8 +60,7 @@ def lean_of(book: MissionState, said: SaidSentence, now_unix_s: float) -> Change
     """Return how a sentence leans on the goals before it; None: on none, or in doubt."""
     text, intent, orders = said.text, said.intent, last_orders(book, now_unix_s)
     last, names = next(iter(orders), None), book.facts.names
-    waiting = [m for m in book.missions.values() if m.state is GoalState.NEEDS_CLARIFICATION]
-    asked = max(waiting, key=lambda m: m.order, default=None)
+    asked = next(reversed(book.goals_in(GoalState.NEEDS_CLARIFICATION)), None)
     if isinstance(intent, Replace):
         return _take_back(book, intent, orders, text)
     opens = intent is None or (isinstance(intent, HereCommand) and asked is last)

@@ -288,9 +288,8 @@ def stop(turn: Transaction, by: str) -> None:
     """Stand. Running and thinking goals pause; those who wait are kept waiting."""
     reason = PauseReason.STOP.value
     pause_running(turn, reason, PersonCause.PAUSES, by)
-    for mission in tuple(turn.book.missions.values()):
-        if mission.state is GoalState.PLANNING:
-            pause_planning(turn, turn.put(mission, stopped_by=by), reason)
+    for mission in turn.book.goals_in(GoalState.PLANNING):
+        pause_planning(turn, turn.put(mission, stopped_by=by), reason)
     turn.set(pardoned=None, pardon_until_s=float("-inf"))
 
 

@@ -158,19 +158,9 @@ def thinker(
         try:
             hear = hearing.of(ask.id) if hearing else None
             thought = await think_warily(brain, request, hear)
-        except BadPlan as error:
-            log.warning("goal %s: the brain wrote no plan: %s", ask.id, error)
-            why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
-            said = Outcome(code=Code.BAD_PLAN, message=why)
-            return Planned(ask.id, None, said, error.brain or brain.tag)
-        except OutOfBudget as error:
-            log.warning("goal %s: no call went out: %s", ask.id, error)
-            said = Outcome(code=Code.OUT_OF_BUDGET, message=error.said)
-            return Planned(ask.id, None, said, error.brain or brain.tag)
-        except BrainDown as error:
-            log.warning("goal %s: the brain is down: %s", ask.id, error)
-            said = Outcome(code=Code.MODEL_UNAVAILABLE, message=_tell_down(error))
-            return Planned(ask.id, None, said, error.brain or brain.tag)
+        except (BadPlan, BrainDown) as error:
+            log.warning("goal %s: no plan came: %s", ask.id, error)
+            return Planned(ask.id, None, _tell_failure(error), error.brain or brain.tag)
         return await _judge_thought(ask, thought, request, means, clock)
 
     return think
@@ -221,9 +211,17 @@ def _points_beyond(plan: Plan, ask: AskBrain) -> bool:
     )
 
 
-def _tell_down(error: BrainDown) -> Bilingual:
+def _tell_failure(error: BadPlan | BrainDown) -> Outcome:
+    """Return what a goal comes to for which no plan came."""
+    if isinstance(error, BadPlan):
+        why = say("model_error.no_plan") if error.code == "bad_plan" else reason(error.code)
+        return Outcome(code=Code.BAD_PLAN, message=why)
+    if isinstance(error, OutOfBudget):
+        return Outcome(code=Code.OUT_OF_BUDGET, message=error.said)
     told = message(Code.MODEL_UNAVAILABLE)
-    return join((told, tell_failure(error.why, error.server))) if error.server else told
+    if error.server:
+        told = join((told, tell_failure(error.why, error.server)))
+    return Outcome(code=Code.MODEL_UNAVAILABLE, message=told)
 
 
 async def _hold_to_words(

@@ -55,8 +55,8 @@ def goal_in_hand(turn: Transaction, new: GivenOrder) -> Mission | None:
     """
     if turn.running is not None:
         return turn.running
-    open_ = (m for m in turn.book.missions.values() if m.order < new.order and m.state in IN_HAND)
-    return max(open_, key=lambda m: m.order, default=None)
+    before = [m for m in turn.book.goals_in(*IN_HAND) if m.order < new.order]
+    return before[-1] if before else None
 
 
 def assume_role(turn: Transaction, mission: Mission, role: PlanRole) -> Mission:
@@ -74,7 +74,8 @@ def end_current(turn: Transaction, mission: Mission, target: Mission | None) -> 
     The goal that the person's own words name is meant; else the one in hand, else the only one
     that is paused. Of several paused ones none is chosen for them: they are asked which.
     """
-    named, paused = _goals_named(turn, mission), _goals_in(turn, mission, GoalState.PAUSED)
+    paused = turn.book.goals_in(GoalState.PAUSED, besides=mission.id)
+    named = _goals_named(turn, mission)
     if len(named) == 1:
         target = named[0]
     elif target is None and len(paused) > 1:
@@ -97,19 +98,13 @@ def end_current(turn: Transaction, mission: Mission, target: Mission | None) -> 
     _answer(turn, mission, say("commands.done", done=say("commands.cancelled"), text=text))
 
 
-def _goals_in(turn: Transaction, new: GivenOrder, *states: GoalState) -> list[Mission]:
-    """Return the other goals in these states, oldest first."""
-    others = (m for m in turn.book.missions.values() if m.state in states and m.id != new.id)
-    return sorted(others, key=lambda m: m.order)
-
-
 def _goals_named(turn: Transaction, new: Mission) -> list[Mission]:
     """Return the open goals of which a person's words name a place or a thing."""
     open_ = (*IN_HAND, GoalState.RUNNING, GoalState.QUEUED, GoalState.PAUSED)
     places = set(places_named(new.words, turn.book.facts.names))
     return [
         goal
-        for goal in _goals_in(turn, new, *open_)
+        for goal in turn.book.goals_in(*open_, besides=new.id)
         if _goes_to(goal, places)
         or any(step.object and label_named(step.object, new.words) for step in goal.steps)
     ]

@@ -248,12 +248,12 @@ def next_up(turn: Transaction) -> Mission | None:
     """
     if turn.book.running is not None or standing_hold(turn) is not None:
         return None
-    if any(m.first and m.state is GoalState.PLANNING for m in turn.book.missions.values()):
+    thinking = turn.book.goals_in(GoalState.PLANNING)
+    if any(m.first for m in thinking):
         return None  # "forget that, …": the robot stays free for what is thought about
     found = next((m for m in _waiting(turn) if not m.held), None)
     if found is None or _goes_first(found):
         return found
-    thinking = (m for m in turn.book.missions.values() if m.state is GoalState.PLANNING)
     return None if any(m.order < found.order for m in thinking) else found
 
 

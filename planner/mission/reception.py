@@ -289,8 +289,7 @@ def awaits_answer(book: MissionState) -> bool:
 
 def is_active(book: MissionState, now_s: float) -> bool:
     """Return whether anything moves, is about to move, or waits; in doubt it does."""
-    thinking = any(m.state is GoalState.PLANNING for m in book.missions.values())
-    if book.running is not None or book.queue or thinking:
+    if book.running is not None or book.queue or book.goals_in(GoalState.PLANNING):
         return True
     status = book.status
     if status is None:
@@ -327,10 +326,8 @@ def goal_to_pause(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that a person wants paused."""
     if book.running is not None:
         return book.running
-    thinking = [
-        m for m in book.missions.values() if m.state is GoalState.PLANNING and m.id != asking
-    ]
-    return max(thinking, key=lambda m: m.order).id if thinking else None
+    thinking = book.goals_in(GoalState.PLANNING, besides=asking)
+    return thinking[-1].id if thinking else None
 
 
 def goal_to_resume(book: MissionState, asking: str | None = None) -> str | None:

@@ -280,21 +280,6 @@ class Missions:
         """Return the robot's parts beyond wheels and a voice, as they are now."""
         return self.loop.book.means
 
-    @property
-    def failure(self) -> BaseException | None:
-        """Return the error that ended the mission loop, if one did: the process should end then."""
-        return self.loop.failure
-
-    @property
-    def journal_trouble(self) -> str | None:
-        """Return why the journal can't be written, or None."""
-        return self.loop.trouble
-
-    @property
-    def first_waypoint_s(self) -> tuple[float, ...]:
-        """Return the newest times from acceptance to first waypoint [s]."""
-        return tuple(self.loop.accepted.seconds)
-
     def goal(self, goal_id: str) -> Goal:
         """Return a goal. Raises UnknownGoal: there is none of that id at hand."""
         book = self.loop.book

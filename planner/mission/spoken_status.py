@@ -127,16 +127,14 @@ def _task(book: MissionState, asking: str) -> Bilingual:
     running = book.running_goal
     if running is not None:
         return _running(book, running)
-    others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]
     for state in (
         GoalState.PLANNING,
         GoalState.NEEDS_CLARIFICATION,
         GoalState.AWAITING_CONFIRMATION,
         GoalState.PAUSED,
     ):
-        found = [m for m in others if m.state is state]
-        if found:
-            return _waiting(max(found, key=lambda m: m.order))
+        if found := book.goals_in(state, besides=asking):
+            return _waiting(found[-1])
     return say("status.idle")
 
 

@@ -296,6 +296,11 @@ class MissionState:
         """Return the mission that has the robot, or None."""
         return self.missions.get(self.running or "")
 
+    def goals_in(self, *states: GoalState, besides: str | None = None) -> list[Mission]:
+        """Return the goals in these states besides one, as they were given: the oldest first."""
+        found = (m for m in self.missions.values() if m.state in states and m.id != besides)
+        return sorted(found, key=lambda m: m.order)
+
     @property
     def means(self) -> Means:
         """Return the robot's means besides driving and talking, as its eyes are now."""
@@ -304,7 +309,7 @@ class MissionState:
 
 def newest_paused(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that was paused last, besides the one that asks; None: none is."""
-    paused = (m for m in book.missions.values() if m.state is GoalState.PAUSED and m.id != asking)
+    paused = book.goals_in(GoalState.PAUSED, besides=asking)
     newest = max(paused, key=lambda m: (m.updated_unix_s, m.order), default=None)
     return newest.id if newest is not None else None
 
@@ -322,9 +327,7 @@ def goal_to_end(book: MissionState, asking: str | None = None) -> str | None:
     """Return the goal that a person means by "that": the running one, else the newest open one."""
     if book.running is not None:
         return book.running
-    others = [m for m in book.missions.values() if not m.has_ended and m.id != asking]
     for state in _OPEN:
-        found = [m for m in others if m.state is state]
-        if found:
-            return max(found, key=lambda m: m.order).id
+        if found := book.goals_in(state, besides=asking):
+            return found[-1].id
     return None

@@ -128,7 +128,7 @@ async def planner(
     try:
         await together.until(lambda: bridge.owner == missions.planner_id)
         yield together
-        assert missions.failure is None
+        assert missions.loop.failure is None
     finally:
         await missions.close()
 

@@ -52,7 +52,7 @@ async def test_a_sentence_ends_where_it_says(start: Starter) -> None:
         assert reached is not None
         assert reached.room == "kitchen"
         assert world.brain.asked[0].room == "living_room"
-        assert len(world.missions.first_waypoint_s) == 1
+        assert len(world.missions.loop.accepted.seconds) == 1
         assert world.missions.goals()[0] == done
         assert world.missions.snapshot()["goals"][0]["id"] == goal.id
 
@@ -204,7 +204,7 @@ async def test_without_a_journal_no_goal_is_taken(
         engine.dispose()
         with pytest.raises(JournalDown, match="missions"):
             await world.missions.submit("go to the sofa")
-        assert world.missions.journal_trouble is not None
+        assert world.missions.loop.trouble is not None
         assert world.bridge.waypoints == []
 
 
@@ -224,8 +224,8 @@ async def test_a_fault_of_ours_ends_the_loop_aloud(
         async with start() as world:
             asyncio.get_running_loop().set_exception_handler(lambda loop, context: None)
             await world.missions.submit("go to the kitchen")
-            await world.until(lambda: world.missions.failure is not None)
-            assert isinstance(world.missions.failure, ZeroDivisionError)
+            await world.until(lambda: world.missions.loop.failure is not None)
+            assert isinstance(world.missions.loop.failure, ZeroDivisionError)
             assert world.bridge.waypoints == []
             raise Done
 
