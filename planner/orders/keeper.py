@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any
 from planner.mission.errors import MissionError
 from planner.mission.state import ORDER_SOURCE
 from planner.orders import world
-from planner.orders.announcer import OrderAnnouncer
 from planner.orders.interfaces import GoalGiver, OrderClocks
 from planner.orders.ledger import End, FiringLedger, LedgerEntry
+from planner.orders.notifier import OrderAnnouncer
 from planner.orders.order import Firing, FiringState, StandingOrder, key_of, new_nonce
 from planner.orders.scheduler import (
     INTERRUPTED,
@@ -33,7 +33,7 @@ from planner.orders.scheduler import (
     put,
     tick,
 )
-from planner.orders.watch import Watch, notice
+from planner.orders.world import Watch, notice
 from planner.plan import Bilingual, GoalState
 from planner.state_database import StateUnavailable
 

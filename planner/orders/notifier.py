@@ -1,6 +1,7 @@
-"""Tell the owner, at the one address that the owner named. Blocks nothing and keeps nothing.
+"""Tell what becomes of standing orders: on every page that listens, and to the owner where set.
 
-A message is tried three times within half a minute and then dropped, with a line in the log; while
+The owner is told at the one address that the owner named. Blocks nothing and keeps nothing. A
+message is tried three times within half a minute and then dropped, with a line in the log; while
 the address does not answer, at most ``MOST_WAITING`` wait and the oldest gives way. Where it may be
 and what leaves with it is ``planner.outbound``'s law: no redirect, no proxy, no metadata service.
 """
@@ -14,12 +15,16 @@ from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from planner.language.catalogue import say
 from planner.loops import keep_going
+from planner.orders.telling import tell_missed, tell_reminder
 from planner.outbound import Address, CallFailure
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
+    from datetime import tzinfo
 
+    from planner.orders.order import Firing, StandingOrder
     from planner.outbound.caller import Caller
     from planner.plan import Bilingual, Language
     from planner.settings import NotifySettings
@@ -160,3 +165,63 @@ class Notifier:
             text = message.text
             body["text"] = {"en": text.en[:MOST_CHARACTERS], "zh": text.zh[:MOST_CHARACTERS]}
         return body
+
+
+class OrderAnnouncer:
+    """Say each thing once, at once; nothing is waited for."""
+
+    def __init__(
+        self,
+        publish: Callable[[dict[str, Any]], None],
+        notifier: Notifier | None,
+        zone: tzinfo,
+        unix_s: Callable[[], float],
+    ) -> None:
+        self._publish, self._notifier, self._zone, self._unix_s = publish, notifier, zone, unix_s
+        self.told_unix_s: dict[str, float] = {}
+        """When each reminder's words were last told, by this process; also as missed."""
+
+    def tell_missed(self, order: StandingOrder, firing: Firing) -> None:
+        """Tell that a run was missed, and why."""
+        told = tell_missed(order, firing, self._zone, self._unix_s())
+        self._note(order)
+        self._tell(order, "missed", firing.reason or "late", told, firing)
+
+    def tell_reminder(self, order: StandingOrder, firing: Firing) -> None:
+        """Tell a reminder's words as it fires."""
+        self._note(order)
+        self._tell(order, "reminder", "reminder", tell_reminder(order), firing)
+
+    def tell_outcome(
+        self, order: StandingOrder, kind: str, code: str, outcome: Bilingual, firing: Firing
+    ) -> None:
+        """Tell how a firing's goal ended, or what it asks."""
+        told = say("standing.ended", text=order.text, outcome=outcome)
+        self._tell(order, kind, code, told, firing)
+
+    async def close(self) -> None:
+        """End the telling; what was not sent yet is dropped."""
+        if self._notifier is not None:
+            await self._notifier.close()
+
+    def _note(self, order: StandingOrder) -> None:
+        if order.reminder is not None:
+            self.told_unix_s[order.id] = self._unix_s()
+
+    def _tell(
+        self, order: StandingOrder, kind: str, code: str, told: Bilingual, firing: Firing
+    ) -> None:
+        log.info("standing order %s: %s (%s)", order.id, kind, code)
+        self._publish(
+            {
+                "type": "told",
+                "order": order.id,
+                "kind": kind,
+                "code": code,
+                "message": told.model_dump(),
+            }
+        )
+        if self._notifier is not None:
+            self._notifier.tell(
+                Message(kind, order.id, code, order.language, told, firing.due_unix_s)
+            )

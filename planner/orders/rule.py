@@ -31,7 +31,7 @@ from planner.plan.timing import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
     from datetime import tzinfo
 
     from planner.language.schedule.parts import OnceDay
@@ -116,12 +116,18 @@ def next_due(rule: Rule, after_unix_s: float, zone: tzinfo) -> float | None:
 
 def upcoming(rule: Rule, after_unix_s: float, zone: tzinfo, count: int) -> Iterator[float]:
     """Yield the next runs of a rule, ``count`` at most."""
-    due_s: float | None = after_unix_s
+    return _follow(lambda s: next_due(rule, s, zone), after_unix_s, count)
+
+
+def _follow(
+    find_next: Callable[[float], float | None], after_unix_s: float, count: int
+) -> Iterator[float]:
+    due_s = after_unix_s
     for _ in range(count):
-        due_s = next_due(rule, due_s if due_s is not None else after_unix_s, zone)
-        if due_s is None:
+        next_s = find_next(due_s)
+        if next_s is None:
             return
-        yield due_s
+        yield (due_s := next_s)
 
 
 def _next_cron(cron: str, after_unix_s: float, zone: tzinfo) -> float | None:
@@ -260,12 +266,7 @@ def coming_runs(
     order: StandingOrder, after_unix_s: float, zone: tzinfo, count: int
 ) -> Iterator[float]:
     """Yield the next runs of an order, ``count`` at most."""
-    due_s: float | None = after_unix_s
-    for _ in range(count):
-        due_s = next_run(order, due_s if due_s is not None else after_unix_s, zone)
-        if due_s is None:
-            return
-        yield due_s
+    return _follow(lambda s: next_run(order, s, zone), after_unix_s, count)
 
 
 def runs_on(order: StandingOrder, day: date, now_unix_s: float, zone: tzinfo) -> bool:

@@ -146,65 +146,139 @@ def tick(
     book: OrderBook, world: RobotView, now: ClockReading
 ) -> tuple[OrderBook, tuple[Effect, ...]]:
     """Return the book after this instant, and what is to be done. Same arguments, same answer."""
-    effects: list[Effect] = []
-    book = _follow_clock(book, now, effects)
-    book = _believe_clock(book, now, effects)
-    for order in () if book.unset else end_pauses(book.orders.values(), now.unix_s):
-        book = put(book, order)
-        effects.append(Keep(order))
-    for name, due_s in sorted(book.due.items(), key=lambda item: item[1]):
+    at = _Instant(book, world, now)
+    at.follow_clock()
+    at.believe_clock()
+    for order in () if at.book.unset else end_pauses(at.book.orders.values(), now.unix_s):
+        at.ask(Keep(order))
+    for name, due_s in sorted(at.book.due.items(), key=lambda item: item[1]):
         if due_s > now.unix_s:
             break
-        if not _waits(book, book.orders[name], world, now):
-            book = _run(book, book.orders[name], due_s, world, now, effects)
+        if not at.waits(at.book.orders[name]):
+            at.run(at.book.orders[name], due_s)
     for event in dict.fromkeys(world.happened):
-        for order in tuple(book.orders.values()):
+        for order in tuple(at.book.orders.values()):
             if isinstance(order.rule, EventRule) and order.rule.event is event:
-                book = _upon_event(book, order, world, now, effects)
-    return replace(book, ticked=now, stepped=False), tuple(effects)
+                at.happen(order, order.rule)
+    return replace(at.book, ticked=now, stepped=False), tuple(at.effects)
 
 
-def _follow_clock(book: OrderBook, now: ClockReading, effects: list[Effect]) -> OrderBook:
-    """Move along what was counted from an instant where the clock was put right."""
-    before = book.ticked
-    if before is None:
-        unset = not now.unix_s >= book.floor_unix_s - BEHIND_S
-        live = (order for order in book.orders.values() if not order.ended)
-        unset |= any(order.handled_unix_s - now.unix_s > BACK_S for order in live)
-        return replace(book, began=now, unset=unset)
-    step_s = (now.unix_s - before.unix_s) - (now.monotonic_s - before.monotonic_s)
-    if not abs(step_s) > STEP_S:
-        return book
-    was_unset = book.unset
-    floor_s = min(book.floor_unix_s, now.unix_s)
-    book = replace(book, stepped=True, unset=False, floor_unix_s=floor_s)
-    for order in tuple(book.orders.values()):
-        moves = order.id in book.fresh or not was_unset  # else they lie on the clock of before
-        moved = _move_along(order, step_s if moves else 0.0, now)
-        if moved is not order:
-            book = put(book, moved)
-            effects.append(Keep(moved))
-    return book
+@dataclass(slots=True)
+class _Instant:
+    """Work on one tick: the book as it becomes, and what is asked; local to it."""
 
+    book: OrderBook
+    world: RobotView
+    now: ClockReading
+    effects: list[Effect] = field(default_factory=list)
 
-def _believe_clock(book: OrderBook, now: ClockReading, effects: list[Effect]) -> OrderBook:
-    """Have orders be due again that were handled by a clock far ahead, which a start has put right.
+    def ask(self, effect: Effect) -> None:
+        """Have an order written down, which is in the book so from now on."""
+        self.effects.append(effect)
+        self.book = put(self.book, effect.order)
 
-    The process that was there then saw no step, and without this they would wait for that year.
-    """
-    if not (book.unset and _alive_s(book, now) >= UNSET_S and now.unix_s >= NEVER_SET_UNIX_S):
-        return book
-    for order in tuple(book.orders.values()):
-        ahead_s = order.handled_unix_s - now.unix_s
-        if ahead_s > BACK_S and not order.ended:
-            moved = _move_along(order, -ahead_s, now)
-            book = replace(put(book, moved), unset=False, floor_unix_s=now.unix_s)
-            effects.append(Keep(moved))
-    return book
+    def follow_clock(self) -> None:
+        """Move along what was counted from an instant where the clock was put right."""
+        book, now, before = self.book, self.now, self.book.ticked
+        if before is None:
+            unset = not now.unix_s >= book.floor_unix_s - BEHIND_S
+            live = (order for order in book.orders.values() if not order.ended)
+            unset |= any(order.handled_unix_s - now.unix_s > BACK_S for order in live)
+            self.book = replace(book, began=now, unset=unset)
+            return
+        step_s = (now.unix_s - before.unix_s) - (now.monotonic_s - before.monotonic_s)
+        if not abs(step_s) > STEP_S:
+            return
+        floor_s = min(book.floor_unix_s, now.unix_s)
+        self.book = replace(book, stepped=True, unset=False, floor_unix_s=floor_s)
+        for order in book.orders.values():
+            moves = order.id in book.fresh or not book.unset  # else they lie on the clock of before
+            moved = _move_along(order, step_s if moves else 0.0, now)
+            if moved is not order:
+                self.ask(Keep(moved))
 
+    def believe_clock(self) -> None:
+        """Have orders be due again that a clock far ahead handled, which a start has put right.
 
-def _alive_s(book: OrderBook, now: ClockReading) -> float:
-    return now.monotonic_s - book.began.monotonic_s if book.began is not None else 0.0
+        The process that was there then saw no step, and without this they would wait for that year.
+        """
+        now, alive_s = self.now, self._alive_s()
+        if not (self.book.unset and alive_s >= UNSET_S and now.unix_s >= NEVER_SET_UNIX_S):
+            return
+        for order in tuple(self.book.orders.values()):
+            ahead_s = order.handled_unix_s - now.unix_s
+            if ahead_s > BACK_S and not order.ended:
+                self.ask(Keep(_move_along(order, -ahead_s, now)))
+                self.book = replace(self.book, unset=False, floor_unix_s=now.unix_s)
+
+    def _alive_s(self) -> float:
+        began = self.book.began
+        return self.now.monotonic_s - began.monotonic_s if began is not None else 0.0
+
+    def waits(self, order: StandingOrder) -> bool:
+        """Tell whether nothing can be said of a run yet."""
+        relative = isinstance(order.rule, EveryRule) or getattr(order.rule, "relative", False)
+        if self.book.unset and not (relative and order.id in self.book.fresh):
+            return self._alive_s() < UNSET_S
+        return self.world.hindrance == BRIDGE_SILENT and self._alive_s() < WAITS_S
+
+    def run(self, order: StandingOrder, due_s: float) -> None:
+        """Fire the newest run that is due, or say why not; those before it are missed."""
+        now, skipped, before_s, newest_s = self.now, 0, due_s, due_s
+        while skipped < MOST_COUNTED:
+            next_s = next_run(order, newest_s, self.book.zone)
+            if next_s is None or next_s > now.unix_s:
+                break
+            skipped, before_s, newest_s = skipped + 1, newest_s, next_s
+        if skipped >= MOST_COUNTED:  # counted so far: no later run of these is looked for
+            newest_s = now.unix_s - LATE_S - STEP_S
+        why = self._too_late(newest_s)
+        if why is not None:
+            self.ask(_miss_run(order, due_s, now, why, skipped + 1, newest_s))
+            return
+        if skipped:
+            why = CLOCK_MOVED if self.book.stepped else LATE
+            older = _miss_run(order, due_s, now, why, skipped, before_s)
+            self.effects.append(older)
+            order = older.order
+        self._fire(order, newest_s)
+
+    def _too_late(self, due_s: float) -> str | None:
+        book, now = self.book, self.now
+        began_s = book.began.unix_s if book.began is not None else now.unix_s
+        if book.stepped:
+            return CLOCK_MOVED if now.unix_s - due_s > LATE_S else None
+        if due_s < began_s - STEP_S and now.unix_s >= began_s:
+            return WAS_OFF
+        return LATE if now.unix_s - due_s > LATE_S else None
+
+    def _fire(self, order: StandingOrder, due_s: float) -> None:
+        quiet, now = self.book.quiet, self.now
+        rests = quiet is not None and not order.is_once and is_quiet(quiet, due_s, self.book.zone)
+        why = STILL_RUNNING if order.id in self.world.busy else self.world.hindrance
+        if rests:
+            self.ask(_note_run(order, due_s, now, FiringState.QUIET, None))
+        elif why is not None:
+            self.ask(_miss_run(order, due_s, now, why, 1, due_s))
+        else:
+            begun = _handle(order, due_s).model_copy(update={"fired": order.fired + 1})
+            firing = Firing(
+                order=order.id, serial=begun.serial, due_unix_s=due_s, at_unix_s=now.unix_s,
+                state=FiringState.BEGUN,
+            )  # fmt: skip
+            self.ask(Fire(begun, firing))
+
+    def happen(self, order: StandingOrder, rule: EventRule) -> None:
+        """Fire an order upon its event, within the hours in which it counts."""
+        book, now, last_s = self.book, self.now, self.book.fired_s.get(order.id, float("-inf"))
+        hours = rule.hours
+        if hours is not None and not is_quiet(QuietHours.read(hours), now.unix_s, book.zone):
+            return
+        left_out = order.paused or day_at(now.unix_s, book.zone) in order.skipped
+        if left_out or now.monotonic_s - last_s < COOLDOWN_S:
+            return
+        self.book = replace(book, fired_s={**book.fired_s, order.id: now.monotonic_s})
+        self._fire(order, now.unix_s)
 
 
 def _move_along(order: StandingOrder, step_s: float, now: ClockReading) -> StandingOrder:
@@ -220,99 +294,6 @@ def _move_along(order: StandingOrder, step_s: float, now: ClockReading) -> Stand
     if order.handled_unix_s - now.unix_s > BACK_S:
         return order.model_copy(update={"handled_unix_s": now.unix_s})
     return order
-
-
-def _waits(book: OrderBook, order: StandingOrder, world: RobotView, now: ClockReading) -> bool:
-    """Tell whether nothing can be said of a run yet."""
-    alive_s = _alive_s(book, now)
-    relative = isinstance(order.rule, EveryRule) or getattr(order.rule, "relative", False)
-    if book.unset and not (relative and order.id in book.fresh):
-        return alive_s < UNSET_S
-    return world.hindrance == BRIDGE_SILENT and alive_s < WAITS_S
-
-
-def _run(
-    book: OrderBook,
-    order: StandingOrder,
-    due_s: float,
-    world: RobotView,
-    now: ClockReading,
-    effects: list[Effect],
-) -> OrderBook:
-    """Fire the newest run that is due, or say why not; those before it are missed."""
-    skipped, before_s, newest_s = 0, due_s, due_s
-    while skipped < MOST_COUNTED:
-        next_s = next_run(order, newest_s, book.zone)
-        if next_s is None or next_s > now.unix_s:
-            break
-        skipped, before_s, newest_s = skipped + 1, newest_s, next_s
-    if skipped >= MOST_COUNTED:  # counted so far: no later run of these is looked for
-        newest_s = now.unix_s - LATE_S - STEP_S
-    why = _too_late(book, newest_s, now)
-    if why is not None:
-        missed = _miss_run(order, due_s, now, why, skipped + 1, newest_s)
-        effects.append(missed)
-        return put(book, missed.order)
-    if skipped:
-        why = CLOCK_MOVED if book.stepped else LATE
-        older = _miss_run(order, due_s, now, why, skipped, before_s)
-        effects.append(older)
-        order = older.order
-    return _fire(book, order, newest_s, world, now, effects)
-
-
-def _too_late(book: OrderBook, due_s: float, now: ClockReading) -> str | None:
-    began_s = book.began.unix_s if book.began is not None else now.unix_s
-    if book.stepped:
-        return CLOCK_MOVED if now.unix_s - due_s > LATE_S else None
-    if due_s < began_s - STEP_S and now.unix_s >= began_s:
-        return WAS_OFF
-    return LATE if now.unix_s - due_s > LATE_S else None
-
-
-def _fire(
-    book: OrderBook,
-    order: StandingOrder,
-    due_s: float,
-    world: RobotView,
-    now: ClockReading,
-    effects: list[Effect],
-) -> OrderBook:
-    quiet = book.quiet
-    rests = quiet is not None and not order.is_once and is_quiet(quiet, due_s, book.zone)
-    why = STILL_RUNNING if order.id in world.busy else world.hindrance
-    if rests:
-        noted = _note_run(order, due_s, now, FiringState.QUIET, None)
-    elif why is not None:
-        noted = _miss_run(order, due_s, now, why, 1, due_s)
-    else:
-        begun = _handle(order, due_s).model_copy(update={"fired": order.fired + 1})
-        firing = Firing(
-            order=order.id, serial=begun.serial, due_unix_s=due_s, at_unix_s=now.unix_s,
-            state=FiringState.BEGUN,
-        )  # fmt: skip
-        effects.append(Fire(begun, firing))
-        return put(book, begun)
-    effects.append(noted)
-    return put(book, noted.order)
-
-
-def _upon_event(
-    book: OrderBook,
-    order: StandingOrder,
-    world: RobotView,
-    now: ClockReading,
-    effects: list[Effect],
-) -> OrderBook:
-    last_s = book.fired_s.get(order.id, float("-inf"))
-    hours = order.rule.hours if isinstance(order.rule, EventRule) else None
-    if hours is not None and not is_quiet(QuietHours.read(hours), now.unix_s, book.zone):
-        return book  # outside of the hours in which it counts
-    left_out = order.paused or day_at(now.unix_s, book.zone) in order.skipped
-    if left_out or now.monotonic_s - last_s < COOLDOWN_S:
-        return book
-    book = replace(book, fired_s={**book.fired_s, order.id: now.monotonic_s})
-    return _fire(book, order, now.unix_s, world, now, effects)
 
 
 def _miss_run(

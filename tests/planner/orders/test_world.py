@@ -7,7 +7,7 @@ from itertools import count, pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.orders.watch import AWAY_S, EMPTY_S, Watch, WorldFacts, notice
+from planner.orders.world import AWAY_S, EMPTY_S, Watch, WorldFacts, notice
 from planner.plan.timing import WorldEvent
 
 
