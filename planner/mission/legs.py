@@ -26,7 +26,7 @@ from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import GoalFact
-from planner.navigation import RouteRequest
+from planner.navigation.route import RouteRequest
 from planner.plan import Code, Outcome, PauseReason
 from planner.skills import Fail, Way, no_room
 from planner.skills.measured_motions import along, turned_rad
