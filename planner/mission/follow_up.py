@@ -27,7 +27,7 @@ from planner.language.reading import ChangeReading
 from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
 from planner.mission.open_questions import find_choice, find_offered_plan
-from planner.mission.outcomes import moves, spot_at
+from planner.mission.outcomes import moves
 from planner.mission.state import ORDER_SOURCE, GivenOrder, goal_to_end
 from planner.plan import (
     Change,
@@ -41,6 +41,7 @@ from planner.plan import (
     places_of,
     steps_of,
 )
+from planner.skills.viewpoints import room_of
 
 if TYPE_CHECKING:
     from planner.language.commands import Intent
@@ -151,12 +152,7 @@ def _is_over_there(book: MissionState, change: Change, last: Mission | None) -> 
         return True
     steps = last.steps if last is not None else ()
     gone = {place for step in steps for place in places_of(step)}
-    return change.denied in gone | {_room(book, place) for place in gone}
-
-
-def _room(book: MissionState, place: str) -> str | None:
-    target = book.facts.targets.get(place)
-    return None if target is None or target.room else spot_at(book.facts, target.pose).room
+    return change.denied in gone | {room_of(book.facts, place) for place in gone}
 
 
 def _fits(who: str, last: Mission) -> bool:

@@ -28,10 +28,10 @@ from planner.language.recall import read_recall
 from planner.language.sentence import parse
 from planner.memory import FACT, KINDS, PERSON, THING, FactRefusal, MemoryQuery
 from planner.mission.events import Recalled
-from planner.mission.outcomes import spot_at
 from planner.mission.recall_text import bounds_of, find_deeds, tell_deeds, tell_memos
 from planner.mission.tasks import recall_nothing
 from planner.plan import AnswerPlan, Code, GoalState, Refuse, say_same
+from planner.skills.viewpoints import room_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -100,19 +100,12 @@ class MemoryLookup:
             kinds = (THING, PERSON)
         return MemoryQuery(
             words=ask.label or "",
-            place=self._room_of(ask.place),
+            place=room_of(self._loop.book.facts, ask.place) or ask.place,
             since_unix_s=since_unix_s,
             until_unix_s=until_unix_s,
             kinds=kinds,
             limit=60,
         )
-
-    def _room_of(self, place: str | None) -> str | None:
-        """Return the room in which a place is; a room is its own."""
-        target = self._loop.book.facts.targets.get(place or "")
-        if target is None or target.room:
-            return place
-        return spot_at(self._loop.book.facts, target.pose).room or place
 
     def _is_at(self, memo: Memo, place: str | None) -> bool:
         """Tell whether a memory is of a place that is no room."""
@@ -227,7 +220,8 @@ class FactCommands:
 
     async def _teach(self, recollection: Recollection, intent: TeachFact) -> AnswerPlan:
         named = set(places_named(intent.words, self._places.vocabulary))
-        room = self._find_room() if intent.here else None
+        facts, pose = self._loop.book.facts, self._loop.book.pose
+        room = facts.room_at(pose.x_m, pose.y_m) if intent.here and pose is not None else None
         if room is None and len(named) == 1:
             room = named.pop()
         kept = await recollection.teach(
@@ -237,7 +231,7 @@ class FactCommands:
         if gone:
             return AnswerPlan(text=say("memory.kept_instead", words=kept.words, old=gone[0].words))
         if intent.here and room is not None:
-            where = self._loop.book.facts.targets[room].name
+            where = facts.targets[room].name
             return AnswerPlan(text=say("memory.kept_here", words=kept.words, room=where))
         return AnswerPlan(text=say("memory.kept", words=kept.words))
 
@@ -253,11 +247,6 @@ class FactCommands:
         for memo in older:
             await recollection.forget(memo.id)
         return older
-
-    def _find_room(self) -> str | None:
-        """Return the room that the robot is in."""
-        book = self._loop.book
-        return spot_at(book.facts, book.pose).room
 
     async def _forget(self, recollection: Recollection, intent: ForgetFacts) -> AnswerPlan:
         kinds = ((FACT,) if intent.told else ()) + ((THING, PERSON) if intent.seen else ())

@@ -13,6 +13,7 @@ from planner.mission.state import Mission, MissionState
 from planner.plan import Bilingual, Code, GoalState, say_same
 from planner.site.polygon import area_m2, border_distance_m, contains
 from planner.site.site_view import SiteView
+from planner.skills.conditions import clock_time
 from wire import Pose2, Status
 
 if TYPE_CHECKING:
@@ -179,13 +180,12 @@ def tell_obstruction(facts: SiteView, shut: ShutWay, place: Bilingual) -> Biling
             width_m=shut.obstruction.width_m,
             where=spot_of(facts, shut.obstruction.middle),
         )
-    minutes = int((shut.since_unix_s + shut.local_offset_s) // 60)
     return say(
         "obstruction.blocked",
         place=definite(place),
         width_m=max(0.1, round(shut.obstruction.width_m, 1)),
         where=spot_of(facts, shut.obstruction.middle),
-        time=f"{minutes // 60 % 24:02d}:{minutes % 60:02d}",
+        time=clock_time(shut.since_unix_s + shut.local_offset_s),
     )
 
 

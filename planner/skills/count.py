@@ -39,7 +39,7 @@ from planner.skills.search import (
     spots,
 )
 from planner.skills.skill_state import CountState
-from planner.skills.viewpoints import NEAR, room_at
+from planner.skills.viewpoints import NEAR
 
 if TYPE_CHECKING:
     from planner.perception.snapshot import Thing
@@ -81,7 +81,7 @@ def _narrow(scene: Scene[CountState], pose: Pose2, wanted: WantedObject) -> Scen
     if by is None or scene.step.place is not None or has_several_neighbours(words, by.label):
         return scene
     state, neighbours = scene.state, _neighbours(scene, wanted)
-    has = {t.room or room_at(scene.facts, (t.x_m, t.y_m)) for t in neighbours}
+    has = {t.room or scene.facts.room_at(t.x_m, t.y_m) for t in neighbours}
     left = [s for s in spots(scene, pose) if s.key not in state.spots and not s.key.endswith(NEAR)]
     to_see = {spot.room for spot in left}
     open_ = (r for r in state.order if r not in state.shut or r in state.rooms)

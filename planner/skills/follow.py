@@ -32,7 +32,7 @@ from planner.skills.look_around import leg_to, look_round, spin
 from planner.skills.object_matching import apart_m, away_m, bearing, lasting, one_of, turn_to
 from planner.skills.search import short_of
 from planner.skills.skill_state import FollowPersonState, FollowStage
-from planner.skills.viewpoints import HERE, Viewpoint, room_at
+from planner.skills.viewpoints import HERE, Viewpoint
 
 if TYPE_CHECKING:
     from planner.perception.snapshot import Thing
@@ -168,7 +168,7 @@ def _search_lost(scene: Scene[FollowPersonState], pose: Pose2, wanted: WantedObj
 
 def _look_about(scene: Scene[FollowPersonState], pose: Pose2, gone_s: float) -> SkillAction:
     at = (pose.x_m, pose.y_m)
-    act = look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)
+    act = look_round(scene, pose, (Viewpoint(HERE, scene.facts.room_at(*at), at),), None)
     if isinstance(act, FollowPersonState):
         return _give_up(gone_s, seen=scene.state.at is not None)
     return replace(act, state=scene.state, watch=True)

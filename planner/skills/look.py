@@ -37,7 +37,7 @@ from planner.skills.look_around import LOOKS, look_round
 from planner.skills.scene_answers import SceneAnswer, answer, tell_unknown
 from planner.skills.search import begin, spots
 from planner.skills.skill_state import LookStage, LookState
-from planner.skills.viewpoints import HERE, Viewpoint, room_at
+from planner.skills.viewpoints import HERE, Viewpoint
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -132,7 +132,7 @@ def _look_next(scene: Scene[LookState], pose: Pose2, question: str) -> SkillActi
     if not looks_round(question):
         return Observe(LOOKS + 1, then=scene.state.but(stage=LookStage.GAZED))
     at = scene.state.here or (pose.x_m, pose.y_m)
-    return look_round(scene, pose, (Viewpoint(HERE, room_at(scene.facts, at), at),), None)
+    return look_round(scene, pose, (Viewpoint(HERE, scene.facts.room_at(*at), at),), None)
 
 
 _ENDS = ".!?…。！？"

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeVar
 from planner.skills.actions import DriveLeg, Observe, Scene, Way
 from planner.skills.object_matching import away_m
 from planner.skills.skill_state import LookRoundState, SkillStateBase
-from planner.skills.viewpoints import HERE, Viewpoint, room_at
+from planner.skills.viewpoints import HERE, Viewpoint
 from wire import Pose2, wrap
 
 if TYPE_CHECKING:
@@ -116,7 +116,7 @@ def _without_way(scene: Scene[Looking], pose: Pose2, spots: tuple[Viewpoint, ...
         return state
     if spot.room in state.rooms:  # it was looked round in, but for what this spot shows better
         return state.but(missed=None, spots=(*state.spots, spot.key))
-    if spot.room is not None and room_at(scene.facts, (pose.x_m, pose.y_m)) == spot.room:
+    if spot.room is not None and scene.facts.room_at(pose.x_m, pose.y_m) == spot.room:
         return state.but(missed=None, spot=spot.key, views=(), turned=None)
     shut = (*state.shut, spot.room) if spot.room and spot.room not in state.shut else state.shut
     return state.but(missed=None, spots=(*state.spots, spot.key), shut=shut)

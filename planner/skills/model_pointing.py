@@ -27,7 +27,6 @@ from planner.skills.look_around import LOOKS
 from planner.skills.object_matching import away_m, turn_to
 from planner.skills.result_text import room_name
 from planner.skills.skill_state import GoToObjectState, Point3, PointingStage
-from planner.skills.viewpoints import room_at
 
 if TYPE_CHECKING:
     from wire import Pose2
@@ -81,7 +80,7 @@ def _proposal(
 ) -> Bilingual:
     """Ask whether to drive to a point: how far it is, on which side, and in which room."""
     words, far_m, side = scene.step.object or "", away_m(pose, at[:2]), _side(turn_to(pose, at[:2]))
-    room = room_name(scene.facts, room_at(scene.facts, at[:2]))
+    room = room_name(scene.facts, scene.facts.room_at(*at[:2]))
     asked = (
         say("look.point_in", words=words, far_m=far_m, side=side, room=room)
         if room is not None

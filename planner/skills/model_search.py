@@ -44,7 +44,7 @@ from planner.skills.search import (
 )
 from planner.skills.search_bounds import bound_pictures
 from planner.skills.skill_state import DirectionSeen, ModelSearchState
-from planner.skills.viewpoints import HERE, Viewpoint, room_at
+from planner.skills.viewpoints import HERE, Viewpoint
 from wire import wrap
 
 if TYPE_CHECKING:
@@ -139,7 +139,7 @@ def _take_in(scene: Scene[Seeking], pose: Pose2, answer: ImageAnswer) -> Seeking
         )
     left, middle, right = answer.counts
     seen = DirectionSeen(
-        room=room_at(scene.facts, (pose.x_m, pose.y_m)),
+        room=scene.facts.room_at(pose.x_m, pose.y_m),
         spot=state.spot or HERE,
         view=state.views[-1] if state.views else 0,
         left=left,

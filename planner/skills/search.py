@@ -45,7 +45,6 @@ from planner.skills.viewpoints import (
     Viewpoint,
     in_order,
     near_spot,
-    room_at,
     room_of,
     spots_in,
 )
@@ -170,7 +169,7 @@ class PlaceFilter:
         if self._target is None:
             return True
         if self._target.room:
-            room = thing.room or room_at(self._facts, (thing.x_m, thing.y_m))
+            room = thing.room or self._facts.room_at(thing.x_m, thing.y_m)
             return room == self._target.id
         return away_m(self._target.pose, (thing.x_m, thing.y_m)) <= AWAY
 
@@ -186,7 +185,7 @@ def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[Viewpoint, ...]:
         at = (target.pose.x_m, target.pose.y_m)
         return (Viewpoint(f"{target.id}/0", room_of(facts, target.id), at),)
     first = scene.state.here or (pose.x_m, pose.y_m)
-    room, order = room_at(facts, first), scene.state.order
+    room, order = facts.room_at(*first), scene.state.order
     rooms = [facts.targets[r] for r in order if r != room and r in facts.targets]
     groups: list[tuple[Viewpoint, ...]] = []
     if room in order:
@@ -291,8 +290,8 @@ def _look_again(
 def _in_sight(scene: Scene[Any], pose: Pose2, thing: Thing) -> bool:
     """Tell whether a turn on the spot is likely to show a thing."""
     away = away_m(pose, (thing.x_m, thing.y_m))
-    room = thing.room or room_at(scene.facts, (thing.x_m, thing.y_m))
-    return 0.7 <= away <= NEAR_M and room == room_at(scene.facts, (pose.x_m, pose.y_m))
+    room = thing.room or scene.facts.room_at(thing.x_m, thing.y_m)
+    return 0.7 <= away <= NEAR_M and room == scene.facts.room_at(pose.x_m, pose.y_m)
 
 
 def short_of(

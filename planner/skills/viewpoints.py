@@ -15,7 +15,7 @@ from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from planner.language.room_names import sorts_of_room
-from planner.site.polygon import area_m2, border_distance_m, contains
+from planner.site.polygon import border_distance_m, contains
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -53,22 +53,12 @@ class Viewpoint:
     at: Point
 
 
-def room_at(facts: SiteView, at: Point) -> str | None:
-    """Return the room around a point; the smallest where outlines overlap."""
-    rooms = [
-        (area_m2(t.polygon), t.id)
-        for t in facts.targets.values()
-        if t.room and t.polygon is not None and contains(t.polygon, *at)
-    ]
-    return min(rooms)[1] if rooms else None
-
-
 def room_of(facts: SiteView, place: str | None) -> str | None:
     """Return the room that a place is, or stands in."""
     target = facts.targets.get(place or "")
     if target is None or target.room:
         return target.id if target is not None else None
-    return room_at(facts, (target.pose.x_m, target.pose.y_m))
+    return facts.room_at(target.pose.x_m, target.pose.y_m)
 
 
 def in_order(
@@ -83,7 +73,7 @@ def in_order(
         wanted: what is sought, where the first of it ends the search; None: all is to be seen.
     """
     at = (pose.x_m, pose.y_m)
-    here = room_at(facts, at)
+    here = facts.room_at(*at)
     left = [t for t in facts.targets.values() if t.room and t.id != here]
     last_seen = {t.room: t.seen_s for t in sorted(known, key=lambda t: t.seen_s)}
     remembered = [t for t in left if t.id in last_seen]
