@@ -34,38 +34,11 @@ with ``rounds=False`` and calls ``missions.loop.hear()`` and ``tick()`` itself. 
 """
 
 from planner.mission.clocks import Clocks
-from planner.mission.effects import AskBrain
-from planner.mission.engine import Engine, Leg
-from planner.mission.errors import (
-    BadState,
-    IdempotencyConflict,
-    JournalDown,
-    NothingToResume,
-    QueueFull,
-    UnknownGoal,
-)
-from planner.mission.events import Planned
+from planner.mission.engine import Leg
 from planner.mission.journal import MissionJournal
 from planner.mission.journal_sync import JournalSync
 from planner.mission.service import Missions
 from planner.mission.spoken_status import tell_doubt
 from planner.mission.state import Rules
 
-__all__ = [
-    "AskBrain",
-    "BadState",
-    "Clocks",
-    "Engine",
-    "IdempotencyConflict",
-    "JournalDown",
-    "JournalSync",
-    "Leg",
-    "MissionJournal",
-    "Missions",
-    "NothingToResume",
-    "Planned",
-    "QueueFull",
-    "Rules",
-    "UnknownGoal",
-    "tell_doubt",
-]
+__all__ = ["Clocks", "JournalSync", "Leg", "MissionJournal", "Missions", "Rules", "tell_doubt"]

@@ -150,7 +150,7 @@ class Loop:
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
         answers = Answers(
             self.event, self._on_routed, self._link.obstacles, self._break,
-            call=lambda ask: self.call_tool(ask),  # noqa: PLW0108  # set later
+            lambda ask: self.call_tool(ask),  # noqa: PLW0108  # set later
         )  # fmt: skip
         self._helpers = MissionTasks(think, router, answers, self.door, recall)
         offset_s = self._clocks.wall() - self._clocks.monotonic()

@@ -29,7 +29,6 @@ from planner.language.sentence import parse
 from planner.memory import FACT, KINDS, PERSON, THING, FactRefusal, MemoryQuery
 from planner.mission.events import Recalled
 from planner.mission.recall_text import bounds_of, find_deeds, tell_deeds, tell_memos
-from planner.mission.tasks import recall_nothing
 from planner.plan import AnswerPlan, Code, GoalState, Refuse, say_same
 from planner.skills.viewpoints import room_of
 
@@ -79,7 +78,9 @@ class MemoryLookup:
             place = book.facts.targets[ask.place].name if ask.place in book.facts.targets else None
             return Recalled(ask.id, ask.ticket, code, tell_deeds(deeds, ask.when, now, place))
         if self.recollection is None:
-            return await recall_nothing(ask)
+            what = say("memory.asked", what=ask.label) if ask.label else say("memory.anything")
+            code = Code.NOT_REMEMBERED
+            return Recalled(ask.id, ask.ticket, code, message(code, what=what))
         try:
             found = await self.recollection.find(self._query(ask, now))
         except FactRefusal as refused:

@@ -70,7 +70,7 @@ class EyeDoor:
 
     def __init__(self, eyes: Eyes | None, looker: Looker | None = None) -> None:
         """Ask these eyes, and this model about their pictures."""
-        self._eyes, self._looker = eyes, looker
+        self.see(eyes, looker)
         self.spent: Spent = nothing_spent
         self._album: KeepInAlbum | None = None
         self._pictures: dict[str, Picture | asyncio.Task[Picture | None]] = {}
@@ -78,7 +78,7 @@ class EyeDoor:
         self._views: dict[str, dict[int, tuple[Shown, tuple[Detection, ...]]]] = {}
         """By goal, and by the number of the direction."""
 
-    def see(self, eyes: Eyes, looker: Looker | None) -> None:
+    def see(self, eyes: Eyes | None, looker: Looker | None) -> None:
         """Ask these eyes from now on, and this model about their pictures."""
         self._eyes, self._looker = eyes, looker
 

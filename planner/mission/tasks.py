@@ -35,7 +35,7 @@ from planner.mission.perception_requests import EyeDoor
 from planner.mission.state import MissionState
 from planner.navigation import RouteFailure, RouteRequest, RouteResult
 from planner.navigation.obstruction import points_of
-from planner.plan import Bilingual, Code, GoTo, Outcome, ReturnHome, Step
+from planner.plan import Code, GoTo, Outcome, ReturnHome, Step
 from planner.skills.perception import ImageAnswer
 from wire import Pose2
 
@@ -49,22 +49,11 @@ Think = Callable[[AskBrain], Awaitable[Planned]]
 """Understand a sentence. Cancelled at once when nobody waits for the answer any more."""
 
 
-async def recall_nothing(ask: AskMemory) -> Recalled:
-    """Answer for a robot without memory: nothing is remembered."""
-    code = Code.NOT_REMEMBERED
-    return Recalled(ask.id, ask.ticket, code, message(code, what=what_of(ask)))
-
-
 async def call_nothing(ask: AskTool) -> ToolAnswered:
     """Answer for a robot without tools."""
     why = say("tool_problem.tool_unknown")
     said = message(Code.TOOL_FAILED, call=ask.tool, why=why)
     return ToolAnswered(ask.id, ask.ticket, said, problem="tool_unknown")
-
-
-def what_of(ask: AskMemory) -> Bilingual:
-    """Name what was asked for, as the person did."""
-    return say("memory.asked", what=ask.label) if ask.label else say("memory.anything")
 
 
 class RouteService(Protocol):
@@ -83,7 +72,7 @@ class Answers:
     obstacles: Callable[[], tuple[tuple[float, float], ...]]
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
-    call: ToolCaller = call_nothing
+    call: ToolCaller
 
 
 class MissionTasks:
@@ -94,12 +83,10 @@ class MissionTasks:
         think: Think,
         router: RouteService,
         answers: Answers,
-        eyes: EyeDoor | None = None,
-        recall: Recaller = recall_nothing,
+        eyes: EyeDoor,
+        recall: Recaller,
     ) -> None:
-        self._think, self._recall = think, recall
-        self._eyes = eyes or EyeDoor(None)
-        self._router = router
+        self._think, self._recall, self._eyes, self._router = think, recall, eyes, router
         self._answers = answers
         self._thoughts: dict[str, asyncio.Task[None]] = {}
         self._inquiries: dict[int, asyncio.Task[None]] = {}

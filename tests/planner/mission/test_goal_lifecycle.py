@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from planner.bridge_client import Identity
-from planner.mission import Engine
 from planner.mission.api_view import goal_of
+from planner.mission.engine import Engine
 from planner.mission.events import Planned, Reply, Restarted, Resume
 from planner.mission.goal_lifecycle import MAP_CHANGED
 from planner.mission.state import Mission, MissionState

@@ -13,7 +13,7 @@ import sqlalchemy as sa
 from planner.brain.errors import BrainDown
 from planner.brain.scripted import Reply
 from planner.language.sentence import parse
-from planner.mission import (
+from planner.mission.errors import (
     BadState,
     IdempotencyConflict,
     JournalDown,

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import cast
+from typing import Any
 
 import pytest
 
@@ -24,7 +24,7 @@ from planner.mission.events import Event, Told
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.reducer import asked_about_picture
 from planner.mission.state import MissionState
-from planner.mission.tasks import Answers, MissionTasks, RouteService, Think
+from planner.mission.tasks import Answers, MissionTasks, call_nothing
 from planner.perception.interfaces import MapPoint, Picture, PointRefusal
 from planner.perception.snapshot import Detection, Sight
 from planner.perception.snapshot import LookSnapshot as Looked
@@ -369,16 +369,12 @@ class Asking:
     def __init__(self, door: Door) -> None:
         self.told: list[Told] = []
         self.broken: list[BaseException] = []
-        nobody = cast("Think", None), cast("RouteService", None)
-        answers = Answers(
-            event=self._hear,
-            routed=lambda *_: None,
-            obstacles=lambda: (),
-            broken=self.broken.append,
-        )
+        nobody: Any = None
+        broken = self.broken.append
+        answers = Answers(self._hear, lambda *_: None, lambda: (), broken, call_nothing)
         eyes = EyeDoor(None)
         eyes.ask = door  # type: ignore[method-assign,assignment]  # another way to see
-        self.helpers = MissionTasks(*nobody, answers, eyes)
+        self.helpers = MissionTasks(nobody, nobody, answers, eyes, nobody)
 
     def _hear(self, event: Event) -> None:
         assert isinstance(event, Told)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from planner.brain import ScriptedBrain
-from planner.mission import AskBrain
+from planner.mission.effects import AskBrain
 from planner.mission.events import Planned, Submitted
 from planner.mission.plan_check import UNASKED, ask_for_motion
 from planner.mission.plan_request import thinker

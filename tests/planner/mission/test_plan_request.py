@@ -8,7 +8,8 @@ from planner.brain import BrainDown, FallbackBrain, OfflineBrain, OutOfBudget, S
 from planner.brain.interface import Brain
 from planner.brain.scripted import Reply
 from planner.brain.situation import RecentGoal, Situation
-from planner.mission import AskBrain, Planned
+from planner.mission.effects import AskBrain
+from planner.mission.events import Planned
 from planner.mission.plan_request import thinker
 from planner.mission.reducer import advance
 from planner.plan import Code, GoTo, Language, Means, StepPlan, say_same

@@ -6,7 +6,7 @@ import pytest
 
 from planner.brain.scripted import Reply
 from planner.language.yes_no import consents
-from planner.mission import QueueFull
+from planner.mission.errors import QueueFull
 from planner.mission.state import MAX_OPEN
 from planner.plan import AnswerPlan, Bilingual, Clarify, Code, GoalState, GoTo, StepPlan, WaitFor
 from tests.planner.mission.live import KITCHEN, Starter
