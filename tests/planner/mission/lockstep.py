@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from planner.bridge_client import Identity
@@ -18,13 +18,14 @@ from planner.mission.effects import (
     SayAloud,
 )
 from planner.mission.engine import Engine, Output
-from planner.mission.events import Event, Journalled, Planned, Restarted, Submitted
+from planner.mission.events import Event, Journalled, Planned, Restarted, Sighted, Submitted
 from planner.mission.state import Mission, MissionState
 from planner.navigation import RoutePoint
-from planner.plan import GoalState, GoTo, Language, Say, StepPlan, Wait
-from planner.skills import Way
+from planner.perception.snapshot import LookSnapshot, Sight, Thing
+from planner.plan import BrainTag, GoalState, GoTo, Language, Outcome, Say, StepPlan, Wait
+from planner.skills import Eyesight, Way
 from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
-from wire import Pose2
+from wire import CameraConfig, Mode, Pose2
 
 Reply = Callable[[AskBrain], Planned | None]
 WayAnswer = Callable[[AskRoute], str | None]
@@ -167,3 +168,87 @@ class Together:
         after.ids = self.ids
         after.event(Restarted(tuple(newest.values()), queue, 0.0))
         return after
+
+
+RUNNING, PAUSED, QUEUED = GoalState.RUNNING, GoalState.PAUSED, GoalState.QUEUED
+SUCCEEDED, FAILED, CANCELLED = GoalState.SUCCEEDED, GoalState.FAILED, GoalState.CANCELLED
+
+
+def driving(world: Together, *places: str) -> str:
+    goal = world.give(go(*(places or ("kitchen",))))
+    world.run(1.0)
+    assert world.goal(goal).state is RUNNING
+    assert world.bridge.mode is Mode.ACTIVE
+    return goal
+
+
+def standing_still(world: Together, seconds: float = 2.0) -> bool:
+    before = world.bridge.pose
+    world.run(seconds)
+    return world.bridge.pose == before
+
+
+CUP = Thing("cup_1", "cup", "red", 5.0, 0.0, 0.8, 0.05, 0.9, 0.0, 0.0, 5, "kitchen")
+ANNA = Thing("person_1", "person", None, 3.0, 0.0, 0.9, 0.05, 0.9, 0.0, 0.0, 5, "hall")
+
+
+class Seeing(Together):
+    """Look on while time passes: a new picture each fifth of a second, with these things in it."""
+
+    things: tuple[Thing, ...] = ()
+    blind: str | None = None
+    seq = 0
+
+    def open_eyes(self) -> None:
+        self.engine.book = replace(self.book, eyes=Eyesight(CameraConfig()))
+
+    def see(self, seconds: float) -> None:
+        for _ in range(round(seconds / 0.2)):
+            self.run(0.2)
+            self.seq += 1
+            fresh = tuple(replace(t, seen_s=self.now_s) for t in self.things)
+            look = LookSnapshot(self.seq, self.now_s, None, 320, 240, ())
+            self.event(Sighted(Sight(look, fresh, self.blind)))
+
+    def see_until(self, goal: str, *states: GoalState, limit_s: float = 120.0) -> None:
+        end_s = self.now_s + limit_s
+        while self.goal(goal).state not in states:
+            assert self.now_s < end_s, self.goal(goal)
+            self.see(0.2)
+
+
+TAG = BrainTag(name="b", version="1")
+SHUT = "no_route"
+
+
+@dataclass
+class Rethinking(Together):
+    """Let each goal's brain give one answer after the other; None: it thinks on."""
+
+    thoughts: list[Any] = field(default_factory=list)
+    asked: list[AskBrain] = field(default_factory=list)
+    tag: BrainTag = TAG
+
+    def answer(self, effect: Any) -> None:
+        if isinstance(effect, AskBrain):
+            self.asked.append(effect)
+            thought = self.thoughts.pop(0) if self.thoughts else None
+            if thought is not None:
+                down = isinstance(thought, Outcome)
+                self.event(Planned(effect.id, None if down else thought,
+                                   thought if down else None, self.tag))  # fmt: skip
+            return
+        super().answer(effect)
+
+
+def rethinking(*thoughts: Any, shut: bool = False) -> Rethinking:
+    """Return a world of these thoughts, in which every way is shut or none."""
+    world = Rethinking(thoughts=list(thoughts), way=lambda _: SHUT if shut else None)
+    world.run(0.2)
+    return world
+
+
+def given(*thoughts: Any, shut: bool = False) -> tuple[Rethinking, str]:
+    """Return such a world with a goal that was given to it."""
+    world = rethinking(*thoughts, shut=shut)
+    return world, world.give(None)

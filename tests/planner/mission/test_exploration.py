@@ -14,9 +14,8 @@ from planner.navigation import FloorReport
 from planner.plan import Code, Explore, ReturnHome, StepPlan, StepState
 from planner.skills import Way
 from planner.skills.explore import DRAWN_S, MOST_SHUT, TURNS
-from tests.planner.mission.driving import PAUSED, RUNNING, SUCCEEDED
 from tests.planner.mission.fakes import FACTS, outcome_of, straight
-from tests.planner.mission.lockstep import Together
+from tests.planner.mission.lockstep import PAUSED, RUNNING, SUCCEEDED, Together
 from wire import Pose2
 
 EXPLORE = StepPlan(steps=(Explore(),))

@@ -1,29 +1,45 @@
-"""A look is repeated, asked of another thing, or narrowed to where somebody or something is."""
+"""What a sentence leans on: looks, motions, whereabouts, pronouns, and the way back."""
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import replace
-from math import pi, radians
+from math import hypot, pi, radians
 from typing import Any
 
 import pytest
 
-from planner.mission.follow_up import LEANS_S
-from planner.mission.state import MissionState
+from planner.brain.offline_brain import OfflineBrain
+from planner.mission.effects import AskBrain
+from planner.mission.events import Cancel, Submitted
+from planner.mission.follow_up import AWAY_M, LEANS_S, departure_of
+from planner.mission.plan_request import thinker
+from planner.mission.reducer import advance
+from planner.mission.state import ORDER_SOURCE, MissionState
 from planner.plan import (
     ChangedOrder,
+    Clarify,
+    ComeBack,
     Count,
     Find,
     GoalState,
     GoTo,
     GoToObject,
+    Language,
     Look,
     MoveStraight,
+    Patrol,
+    Plan,
+    Recall,
     Say,
+    StepPlan,
     Turn,
 )
-from tests.planner.mission.fakes import status
+from tests.planner.brain.conftest import HOME as HOME_NAMES
+from tests.planner.mission.fakes import FACTS as TWO_ROOMS
+from tests.planner.mission.fakes import outcome_of, status
 from tests.planner.mission.leaning import (
+    FACTS,
     changed_by,
     each,
     heard,
@@ -34,6 +50,7 @@ from tests.planner.mission.leaning import (
     order_under_way,
     steps_after,
 )
+from tests.planner.mission.lockstep import QUEUED, RUNNING, SUCCEEDED, Together, go
 from wire import Pose2
 
 
@@ -309,3 +326,241 @@ def test_another_sentence_moves_nothing(step: Any, said: str) -> None:
 def test_nothing_is_adjusted_where_nothing_was_turned_or_moved(said: str) -> None:
     for steps in ((Find(object="cup"),), (LEFT, LEFT)):
         assert changed_by(order_under_way("an order", *steps), said) is None
+
+
+HERE = Pose2(0.4, -0.3, 0.5)
+BACK = StepPlan(steps=(ComeBack(),))
+
+
+def world_at(pose: Pose2 = HERE) -> Together:
+    world = Together()
+    world.bridge.pose = pose
+    world.run(0.2)
+    return world
+
+
+def after_errand(place: str = "kitchen") -> Together:
+    world = world_at()
+    world.run_until(world.give(go(place)), SUCCEEDED)
+    return world
+
+
+def is_near(world: Together, pose: Pose2) -> bool:
+    return hypot(world.bridge.pose.x_m - pose.x_m, world.bridge.pose.y_m - pose.y_m) < 0.1
+
+
+def departed(world: Together, **changes: Any) -> tuple[float, float, float] | None:
+    return departure_of(replace(world.book, **changes), world.now_s)
+
+
+def test_the_robot_comes_back_to_where_the_errand_was_given() -> None:
+    world = after_errand()
+    assert not is_near(world, HERE)
+    assert departed(world) == (HERE.x_m, HERE.y_m, HERE.yaw_rad)
+    goal = world.give(BACK)
+    world.run_until(goal, SUCCEEDED)
+    assert is_near(world, HERE)
+    outcome = outcome_of(world.goal(goal))
+    assert outcome.message.en == "Arrived: where you gave the order."
+
+
+def test_a_second_come_back_stays_there() -> None:
+    world = after_errand()
+    world.run_until(world.give(BACK), SUCCEEDED)
+    world.run_until(world.give(go("kitchen")), SUCCEEDED)
+    world.run_until(world.give(BACK), SUCCEEDED)
+    assert is_near(world, HERE)
+
+
+def test_what_was_done_without_driving_lies_between_and_changes_nothing() -> None:
+    world = after_errand()
+    world.run_until(world.give(StepPlan(steps=(Say(text="hello"),))), SUCCEEDED)
+    world.run_until(world.give(BACK), SUCCEEDED)
+    assert is_near(world, HERE)
+
+
+def test_said_while_the_errand_goes_on_it_is_the_same_spot() -> None:
+    world = world_at()
+    errand = world.give(go("kitchen"))
+    world.run(0.5)
+    goal = world.give(BACK, first=True)
+    assert (world.goal(errand).state, world.goal(goal).state) == (RUNNING, QUEUED)
+    world.run_until(goal, SUCCEEDED)
+    assert is_near(world, HERE)
+
+
+def test_an_errand_broken_off_near_by_is_the_one_that_is_meant() -> None:
+    world = after_errand()
+    begun = world.bridge.pose
+    errand = world.give(go("hall"))
+    while world.goal(errand).metres < AWAY_M / 2:
+        world.run(0.05)
+    world.event(Cancel(errand))
+    assert departed(world) == (begun.x_m, begun.y_m, begun.yaw_rad)
+
+
+def test_coming_back_behind_a_drive_of_the_same_order_is_back_to_where_that_was_given() -> None:
+    world = after_errand()
+    begun = world.bridge.pose
+    goal = world.give(StepPlan(steps=(GoTo(place="hall"), ComeBack())))
+    world.run_until(goal, SUCCEEDED)
+    assert is_near(world, begun)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"status": None},
+        {"status": status(base_in_map=None)},
+        {"status_s": 0.0},
+        {"facts": replace(TWO_ROOMS, map_id="another")},
+        {"wall_offset_s": LEANS_S + 100.0},
+        {"wall_offset_s": float("nan")},
+        {"missions": {}},
+    ],
+    ids=["silent", "not_localized", "stale", "other_map", "long_ago", "clock_broken", "first"],
+)
+def test_where_it_is_in_doubt_nothing_is_meant(changes: dict[str, Any]) -> None:
+    world = after_errand()
+    assert departed(world) is not None
+    assert departed(world, **changes) is None
+
+
+def test_an_order_whose_own_pose_was_unknown_is_passed_over_for_none_before_it() -> None:
+    world = after_errand()
+    newest = world.goal("g1").model_copy(update={"id": "g2", "order": 9, "accepted_at": None})
+    assert departed(world, missions={**world.book.missions, "g2": newest}) is None
+
+
+def test_a_standing_order_is_nobodys_last_order() -> None:
+    world = after_errand()
+    world.bridge.pose = Pose2(3.0, 0.0, 0.0)
+    world.run(0.1)
+    world.run_until(world.give(go("dock"), source=f"{ORDER_SOURCE}o1"), SUCCEEDED)
+    assert departed(world) is not None
+    orders = {k: v for k, v in world.book.missions.items() if v.source.startswith(ORDER_SOURCE)}
+    assert departed(world, missions=orders) is None
+
+
+@pytest.mark.parametrize("text", ["come back", "ok, now come back", "回来", "好，回来吧"])
+def test_the_grammar_comes_back_where_an_order_led_away_and_asks_where_none_did(
+    text: str,
+) -> None:
+    think = thinker(OfflineBrain(), HOME_NAMES)
+
+    def plan_of(book: MissionState, now_s: float) -> Plan | None:
+        _, effects = advance(book, Submitted("new", text, Language.EN), now_s)
+        ask = next(each for each in effects if isinstance(each, AskBrain))
+        return asyncio.run(think(ask)).plan  # type: ignore[arg-type]
+
+    world = after_errand()
+    assert plan_of(world.book, world.now_s) == BACK
+    asked = plan_of(replace(world.book, missions={}), world.now_s)
+    assert isinstance(asked, Clarify)
+
+
+THINGS, PLACES = ("cup", "the book", "my red ball"), (("kitchen", "厨房"), ("study", "书房"))
+EN = (("was it in the study?", "did you see the {t} in the study"),)
+ZH = (("再去玄关找找", "去玄关找{t}"), ("是在书房看到的吗", "你在书房看到过{t}吗"))
+LEFT_AS_SAID = (
+    *("find it and bring it to me", "is it raining", "go there", "say it"),
+    *("look for the key and find it", "what time is it there", "去那里", "找到球了", "它在哪"),
+)
+
+
+@pytest.mark.parametrize(("said", "order"), EN)
+@pytest.mark.parametrize("thing", THINGS)
+@pytest.mark.parametrize("place", PLACES)
+def test_a_pronoun_means_the_one_thing_or_place_of_the_last_order(
+    said: str, order: str, thing: str, place: tuple[str, str]
+) -> None:
+    book = order_under_way("an order", GoTo(place=place[0]), Find(object=thing, place=place[0]))
+    assert means(
+        book, said, order.format(t=thing.removeprefix("the ").removeprefix("my "), p=place[0])
+    )
+
+
+@pytest.mark.parametrize(("said", "order"), ZH)
+@pytest.mark.parametrize("thing", ["杯子", "书"])
+@pytest.mark.parametrize("place", PLACES)
+def test_so_it_does_in_chinese(said: str, order: str, thing: str, place: tuple[str, str]) -> None:
+    book = order_under_way("an order", Find(object=thing, place=place[0]))
+    assert means(book, said, order.format(t=thing, p=place[1]))
+
+
+@pytest.mark.parametrize("said", [said for said, _ in EN + ZH])
+def test_what_is_in_doubt_stays_as_it_was_said(said: str) -> None:
+    two = order_under_way("an order",
+        Find(object="cup", place="study"), Find(object="ball", place="kitchen"),
+        Find(object="球", place="kitchen"),
+    )  # fmt: skip
+    for book in (MissionState(FACTS), two, order_under_way("an order", Recall(deeds=True))):
+        assert changed_by(book, said) is None
+    one = order_under_way("an order", Find(object="cup", place="study"))
+    assert changed_by(one, said, LEANS_S + 1.0) is None
+
+
+@pytest.mark.parametrize("said", LEFT_AS_SAID)
+def test_other_sentences_stay_as_they_are(said: str) -> None:
+    book = order_under_way("an order", Find(object="cup", place="study"))
+    assert changed_by(book, said) is None
+
+
+@pytest.mark.parametrize(
+    ("said", "order"),
+    [
+        ("see anyone?", "did you see anyone"),
+        ("so, seen anything odd?", "did you see anything odd"),
+        ("spot any cups?", "did you see any cups"),
+        ("看到人了吗", "你看到过人吗"),
+        ("刚才看见猫没有", "你看到过猫吗"),
+        ("有没有看到什么", "你看到过什么吗"),
+    ],
+)
+def test_what_was_seen_is_asked_once_a_look_is_over_and_never_before(said: str, order: str) -> None:
+    runs = order_under_way("an order", Patrol(places=("kitchen", "study"), look=True))
+    over = runs.missions["g0"].model_copy(update={"state": GoalState.SUCCEEDED})
+    done = replace(runs, missions={"g0": over}, running=None)
+    assert means(done, said, order)
+    assert changed_by(runs, said) is None
+    assert changed_by(order_under_way("an order", GoTo(place="kitchen")), said) is None
+
+
+def asked(who: str, place: tuple[str, str], *, chinese: bool = False) -> MissionState:
+    text = f"{who}在{place[1]}吗" if chinese else f"is {who} in the {place[0]}?"
+    look = Look(question=text.rstrip("?"), place=place[0])
+    return order_under_way(text, GoTo(place=place[0]), look)
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["tell her tea is ready", "tell him and tell her tea is ready", "if he is hungry, come back",
+     "Anna said to tell him tea is ready"],
+)  # fmt: skip
+def test_in_doubt_it_stays_as_it_was_said(said: str) -> None:
+    assert changed_by(asked("Dad", PLACES[1]), said) is None
+
+
+def test_of_two_people_a_place_of_an_answer_and_what_was_long_ago_nothing_is_meant() -> None:
+    two = order_under_way("are Tom and Peter in the study?", GoTo(place="study"))
+    assert changed_by(two, "tell him tea is ready") is None
+    found = order_under_way("an order", Find(object="cup", place="kitchen"))
+    assert changed_by(found, "go there") is None
+    assert changed_by(asked("Dad", PLACES[1]), "if he is, come back", LEANS_S + 1.0) is None
+
+
+TOLD_MUM = order_done("tell Mum tea is ready")
+TOLD_ZH = order_done("去书房问小明要不要喝茶")
+
+
+@pytest.mark.parametrize(
+    "said", ["tell her again", "ok, ask her once more", "go back and tell her again, please"]
+)
+def test_who_is_told_again_hears_the_same(said: str) -> None:
+    assert means(TOLD_MUM, said, "tell Mum tea is ready")
+    assert changed_by(TOLD_MUM, said.replace("her", "him")) is None
+
+
+@pytest.mark.parametrize("said", ["再问他一遍", "再跟他说一遍吧", "你再去问他一次"])
+def test_so_it_is_in_chinese(said: str) -> None:
+    assert means(TOLD_ZH, said, "去书房问小明要不要喝茶")

@@ -14,9 +14,16 @@ from planner.mission.events import Planned, Reply, Restarted, Resume
 from planner.mission.goal_lifecycle import MAP_CHANGED
 from planner.mission.state import Mission, MissionState
 from planner.plan import Bilingual, Clarify, Code, ComeBack, GoTo, MoveStraight, StepPlan
-from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, driving, standing_still
 from tests.planner.mission.fakes import FACTS, HASH, outcome_of
-from tests.planner.mission.lockstep import Together, go
+from tests.planner.mission.lockstep import (
+    FAILED,
+    PAUSED,
+    SUCCEEDED,
+    Together,
+    driving,
+    go,
+    standing_still,
+)
 
 MAP_A, MAP_B = replace(FACTS, map_id="a"), replace(FACTS, map_id="b")
 

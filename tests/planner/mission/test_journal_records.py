@@ -32,7 +32,6 @@ from planner.skills.skill_state import (
     SkillState,
     SkillStateBase,
 )
-from tests.planner.mission.driving import FAILED, PAUSED, SUCCEEDED, standing_still
 from tests.planner.mission.former_records import (
     APPROACH,
     ASKED_AGAIN,
@@ -44,7 +43,15 @@ from tests.planner.mission.former_records import (
     POINTED,
     YOUNGER,
 )
-from tests.planner.mission.seeing import ANNA, CUP, Seeing
+from tests.planner.mission.lockstep import (
+    ANNA,
+    CUP,
+    FAILED,
+    PAUSED,
+    SUCCEEDED,
+    Seeing,
+    standing_still,
+)
 
 THING, AT = (5.0, 0.0, 0.8), (4.0, 0.5, 0.4)
 HALL_SEEN: dict[str, Any] = {

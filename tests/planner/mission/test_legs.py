@@ -9,16 +9,17 @@ from planner.mission.api_view import goal_of, progress_of
 from planner.mission.events import Pause, Resume
 from planner.mission.legs import RETRY_S
 from planner.plan import Code, MoveStraight, StepPlan, StepState, Wait
-from tests.planner.mission.driving import (
+from tests.planner.mission.fakes import outcome_of, row
+from tests.planner.mission.lockstep import (
     FAILED,
     PAUSED,
     RUNNING,
     SUCCEEDED,
+    Together,
     driving,
+    go,
     standing_still,
 )
-from tests.planner.mission.fakes import outcome_of, row
-from tests.planner.mission.lockstep import Together, go
 from wire import HeldReason, LegReport, Mode, Pose2
 
 

@@ -28,10 +28,8 @@ from planner.plan import (
     say_same,
 )
 from tests.planner.brain.conftest import HOME
-from tests.planner.mission.driving import SUCCEEDED
 from tests.planner.mission.live import KITCHEN, Starter
-from tests.planner.mission.lockstep import go
-from tests.planner.mission.rethinking import given, rethinking
+from tests.planner.mission.lockstep import SUCCEEDED, given, go, rethinking
 
 ASKS = GoalState.NEEDS_CLARIFICATION
 

@@ -20,18 +20,20 @@ from planner.mission.events import (
 from planner.mission.plan_roles import LEAST_SPEED_SHARE
 from planner.mission.route_doubts import LASTS_S, MEETING_SHARE
 from planner.plan import Code, ComeBack, GoTo, MoveStraight, ReturnHome, StepPlan, StepState, Turn
-from tests.planner.mission.driving import (
+from tests.planner.mission.fakes import FakeBridge, outcome_of, row
+from tests.planner.mission.lockstep import (
     CANCELLED,
     FAILED,
     PAUSED,
     QUEUED,
     RUNNING,
     SUCCEEDED,
+    Together,
     driving,
+    go,
     standing_still,
+    talk,
 )
-from tests.planner.mission.fakes import FakeBridge, outcome_of, row
-from tests.planner.mission.lockstep import Together, go, talk
 from wire import Action, HeldReason, Mode, Pose2, RowReport
 from wire import Answer as BridgeAnswer
 

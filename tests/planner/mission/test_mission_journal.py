@@ -27,9 +27,8 @@ from planner.mission.state import MAX_ENDED, GoalKey, Mission
 from planner.plan import Code, GoalState, Language, Outcome, Say, StepPlan, StepState
 from planner.skills.skill_state import FindState
 from tests.killed_writers import kill_writers
-from tests.planner.mission.driving import SUCCEEDED, driving, standing_still
 from tests.planner.mission.former_records import DRIVE, FIND, YOUNGER
-from tests.planner.mission.lockstep import Together
+from tests.planner.mission.lockstep import SUCCEEDED, Together, driving, standing_still
 from wire import ConfigError, Unwritable
 
 

@@ -14,7 +14,7 @@ from planner.plan import Code, ComeBack, Count, Find, GoalState, GoTo, If, Say, 
 from planner.site.site_view import SiteView
 from planner.skills.skill_state import FindState
 from tests.planner.mission.fakes import FACTS, outcome_of, room
-from tests.planner.mission.seeing import CUP, Seeing
+from tests.planner.mission.lockstep import CUP, Seeing
 from wire import Grant
 
 APART_M = 16.0

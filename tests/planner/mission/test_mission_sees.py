@@ -26,17 +26,19 @@ from planner.plan import (
 )
 from planner.skills import Eyesight, ImageAnswer
 from planner.skills.skill_state import FindState, GoToObjectState
-from tests.planner.mission.driving import (
+from tests.planner.mission.fakes import outcome_of, row
+from tests.planner.mission.lockstep import (
+    ANNA,
     CANCELLED,
+    CUP,
     FAILED,
     PAUSED,
     RUNNING,
     SUCCEEDED,
+    Seeing,
+    go,
     standing_still,
 )
-from tests.planner.mission.fakes import outcome_of, row
-from tests.planner.mission.lockstep import go
-from tests.planner.mission.seeing import ANNA, CUP, Seeing
 from wire import CameraConfig
 
 

@@ -36,9 +36,17 @@ from planner.plan import (
     StepState,
     Wait,
 )
-from tests.planner.mission.driving import CANCELLED, FAILED, QUEUED, SUCCEEDED, standing_still
-from tests.planner.mission.lockstep import Together, go
-from tests.planner.mission.rethinking import TAG, Rethinking
+from tests.planner.mission.lockstep import (
+    CANCELLED,
+    FAILED,
+    QUEUED,
+    SUCCEEDED,
+    TAG,
+    Rethinking,
+    Together,
+    go,
+    standing_still,
+)
 from wire import HeldReason
 
 ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION

@@ -22,9 +22,17 @@ from planner.plan import (
     check_plan,
     say_same,
 )
-from tests.planner.mission.driving import CANCELLED, PAUSED, QUEUED, RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import outcome_of
-from tests.planner.mission.lockstep import Together, go
+from tests.planner.mission.lockstep import (
+    CANCELLED,
+    PAUSED,
+    QUEUED,
+    RUNNING,
+    SUCCEEDED,
+    Together,
+    driving,
+    go,
+)
 
 ASKS, CONFIRMS = GoalState.NEEDS_CLARIFICATION, GoalState.AWAITING_CONFIRMATION
 MODEL = BrainTag(name="m", version="5", prompt="plan/5@0")

@@ -23,9 +23,8 @@ from planner.mission.reducer import advance
 from planner.mission.request_keys import Repeats
 from planner.mission.state import MAX_OPEN, GoalKey, Mission, MissionState
 from planner.plan import ChangedOrder, Code, GoalState, Language, Outcome, Vocabulary
-from tests.planner.mission.driving import driving
 from tests.planner.mission.fakes import FACTS, outcome_of
-from tests.planner.mission.lockstep import Together, go
+from tests.planner.mission.lockstep import Together, driving, go
 from wire import HeldReason
 
 SEQUENCES = int(os.environ.get("HOLD_SEQUENCES", "150"))

@@ -23,9 +23,8 @@ from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import WIDE_M
 from planner.plan import Code, GoTo, StepPlan
 from planner.skills import Way
-from tests.planner.mission.driving import FAILED, PAUSED, RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import outcome_of, row
-from tests.planner.mission.lockstep import Together, go
+from tests.planner.mission.lockstep import FAILED, PAUSED, RUNNING, SUCCEEDED, Together, driving, go
 from wire import Pose2
 
 CRATE = Obstruction((2.5, -0.25), (2.5, 0.25))

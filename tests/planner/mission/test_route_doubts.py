@@ -22,6 +22,7 @@ from planner.mission.route_doubts import (
     KEPT_SHORTER,
     LASTS_S,
     MAX_BENDS,
+    MEETING_S,
     NEAR_M,
     PATIENCE_S,
     PERIOD_S,
@@ -32,9 +33,8 @@ from planner.mission.spoken_status import tell_doubt
 from planner.navigation.route import WIDE_M
 from planner.skills import Way
 from tests.laws import at_least
-from tests.planner.mission.driving import RUNNING, SUCCEEDED, driving
 from tests.planner.mission.fakes import FACTS
-from tests.planner.mission.lockstep import Together
+from tests.planner.mission.lockstep import RUNNING, SUCCEEDED, Together, driving
 from wire import Mode, Pose2
 
 AT = (2.5, 0.0)
@@ -284,3 +284,59 @@ def test_a_meeting_is_decided_again_only_after_some_seconds(world: Together) -> 
     world.run(AGAIN_S - HOLDS_S)
     come(world)
     assert len(asked(world)) == 2
+
+
+def keep_coming(world: Together, seconds: float, far_m: float = 3.0) -> None:
+    """Let somebody keep_coming for a while, as five reports a second say it."""
+    for _ in range(round(seconds / REPORT_S)):
+        leg = world.engine.leg
+        if leg is not None:
+            world.event(Oncoming(leg.mission, leg.leg, AT, far_m))
+        world.run(REPORT_S)
+
+
+def asked_right(world: Together) -> list[AskRoute]:
+    return [ask for ask in world.routes if ask.request.keep_right_m > 0.0]
+
+
+def test_a_way_on_the_right_is_taken_at_once_and_says_so(world: Together) -> None:
+    goal = driving(world)
+    keep_coming(world, 0.4)
+    leg = world.engine.leg
+    assert leg is not None
+    assert leg.doubt is not None
+    assert (leg.leg, leg.doubt.code, leg.doubt.at_m) == (2, RIGHT, AT)
+    assert asked_right(world)[0].request.strict
+    assert 1.0 < asked_right(world)[0].request.keep_right_m < 4.0
+    assert world.bridge.mode is Mode.ACTIVE
+    world.run_until(goal, SUCCEEDED)
+
+
+def test_one_meeting_is_one_search_and_the_next_is_another(world: Together) -> None:
+    driving(world)
+    keep_coming(world, 1.6)
+    assert len(asked_right(world)) == 1
+    world.run(MEETING_S + 0.2)
+    keep_coming(world, 0.4)
+    assert len(asked_right(world)) == 2
+
+
+def test_without_room_the_leg_is_kept_and_asked_for_once_a_second_at_most(world: Together) -> None:
+    world.way = lambda ask: "no_route" if ask.request.keep_right_m > 0.0 else None
+    goal = driving(world)
+    keep_coming(world, 2.0)
+    assert world.goal(goal).leg == 1
+    assert 1 <= len(asked_right(world)) <= 3
+    world.run_until(goal, SUCCEEDED)
+
+
+@pytest.mark.parametrize("far", ["another goal", "another leg", "blocked", "slowed"])
+def test_what_is_not_for_this_leg_now_means_nothing(world: Together, far: str) -> None:
+    goal = driving(world)
+    world.bridge.blocked = far == "blocked"
+    world.bridge.limited_by = "obstacle" if far == "slowed" else "max_speed"
+    world.run(0.2)
+    told = "other" if far == "another goal" else goal
+    world.event(Oncoming(told, 9 if far == "another leg" else 1, AT, 3.0))
+    world.run(0.2)
+    assert not asked_right(world)

@@ -16,9 +16,8 @@ from planner.mission.scan_sender import EVERY_S, FRESH_S, PERIOD_S, SIGHT_S, Sca
 from planner.navigation import Mover, ObstacleReport, RouteFailure, ScanObservation
 from planner.navigation.obstruction import Obstruction
 from planner.navigation.route import is_wide
-from tests.planner.mission.driving import driving
 from tests.planner.mission.fakes import straight
-from tests.planner.mission.lockstep import Together
+from tests.planner.mission.lockstep import Together, driving
 from tests.planner.navigation.floors import drawn
 from tests.planner.perception.test_pose_buffer import moved, placed
 from wire import Pose2, RobotDescription, Scan
