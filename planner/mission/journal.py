@@ -2,7 +2,7 @@
 
 SQLAlchemy Core; SQLite with WAL and synchronous=FULL. One transaction per entry, so that a crash at
 any instant leaves each mission as one entry wrote it.
-Knows no event loop: ``JournalWriter`` calls it from its one thread.
+Knows no event loop: ``JournalSync`` calls it from its one thread.
 """
 
 from __future__ import annotations

@@ -14,7 +14,6 @@ import logging
 import queue
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Protocol
 
 import sqlalchemy as sa
@@ -25,78 +24,8 @@ from planner.mission.journal import JournalContents, MissionJournal
 from planner.mission.state import GoalKey
 
 RETRY_S = 0.5
-
-
-@dataclass(frozen=True, slots=True)
-class PendingEntry:
-    """Hold one entry to write, and the key of the request that caused it, if there was one."""
-
-    entry: Journal
-    key: GoalKey | None = None
-
-
-class JournalWriter:
-    """Own the thread. ``done`` and ``failed`` are called in it: hand them over to your loop."""
-
-    def __init__(
-        self,
-        journal: MissionJournal,
-        done: Callable[[int], None],
-        failed: Callable[[str], None],
-    ) -> None:
-        self._journal = journal
-        self._done = done
-        self._failed = failed
-        self._wanted: queue.SimpleQueue[PendingEntry | None] = queue.SimpleQueue()
-        self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="journal", daemon=True)
-        self._thread.start()
-
-    def write(self, wanted: PendingEntry) -> None:
-        """Have an entry written; returns at once."""
-        self._wanted.put(wanted)
-
-    def close(self) -> None:
-        """Write what waits, then end. A disk that still refuses is not waited for."""
-        self._closing.set()
-        self._wanted.put(None)
-        self._thread.join(timeout=5.0)
-        if not self._thread.is_alive():
-            self._journal.close()
-
-    def _run(self) -> None:
-        waiting: list[PendingEntry] = []
-        while True:
-            ending = self._take(waiting)
-            if waiting and self._try(waiting):
-                waiting.clear()
-            elif waiting:
-                ending = self._closing.wait(RETRY_S) or ending
-            if ending and (not waiting or self._closing.is_set()):
-                return
-
-    def _take(self, waiting: list[PendingEntry]) -> bool:
-        """Add all that waits; block only when there is nothing to do. Say whether to end."""
-        try:
-            item = self._wanted.get(block=not waiting)
-            while True:
-                if item is None:
-                    return True
-                waiting.append(item)
-                item = self._wanted.get_nowait()
-        except queue.Empty:
-            return False
-
-    def _try(self, waiting: list[PendingEntry]) -> bool:
-        entries = tuple(item.entry for item in waiting)
-        keys = tuple(item.key for item in waiting if item.key is not None)
-        try:
-            self._journal.write(entries, keys)
-        except sa.exc.SQLAlchemyError as error:
-            self._failed(str(error).splitlines()[0][:200])
-            return False
-        self._done(entries[-1].entry)
-        return True
+_Pending = tuple[Journal, GoalKey | None]
+"""An entry to write, and the key of the request that caused it, if there was one."""
 
 
 log = logging.getLogger(__name__)
@@ -139,7 +68,9 @@ class JournalSync:
         self._journal = journal
         self._safe = 0
         self._waiting: list[tuple[int, asyncio.Future[None]]] = []
-        self._writer: JournalWriter | None = None
+        self._wanted: queue.SimpleQueue[_Pending | None] = queue.SimpleQueue()
+        self._closing = threading.Event()
+        self._thread: threading.Thread | None = None
         self.trouble: str | None = "not started"
 
     async def open(self, on_safe: Callable[[int], None]) -> JournalContents:
@@ -147,13 +78,13 @@ class JournalSync:
         kept = await asyncio.to_thread(self._journal.load)
         self._loop, self._on_safe = asyncio.get_running_loop(), on_safe
         self.trouble = None
-        self._writer = JournalWriter(self._journal, self._from_thread, self._failed_from_thread)
+        self._thread = threading.Thread(target=self._run, name="journal", daemon=True)
+        self._thread.start()
         return kept
 
     def write(self, entry: Journal, key: GoalKey | None = None) -> None:
         """Have an entry written; returns at once."""
-        if self._writer is not None:
-            self._writer.write(PendingEntry(entry, key))
+        self._wanted.put((entry, key))
 
     async def wait(self, entry: int) -> None:
         """Wait until an entry is on disk.
@@ -175,14 +106,55 @@ class JournalSync:
 
     async def close(self) -> None:
         """Write what waits and end the thread, without holding the loop."""
-        if self._writer is not None:
-            await asyncio.to_thread(self._writer.close)
+        if self._thread is not None:
+            await asyncio.to_thread(self._end, self._thread)
 
-    def _from_thread(self, entry: int) -> None:
-        self._loop.call_soon_threadsafe(self._note, entry)
+    def _end(self, thread: threading.Thread) -> None:
+        """Write what waits, then end. A disk that still refuses is not waited for."""
+        self._closing.set()
+        self._wanted.put(None)
+        thread.join(timeout=5.0)
+        if not thread.is_alive():
+            self._journal.close()
 
-    def _failed_from_thread(self, why: str) -> None:
-        self._loop.call_soon_threadsafe(self._complain, why)
+    # The thread ---------------------------------------------------------------------------------
+
+    def _run(self) -> None:
+        waiting: list[_Pending] = []
+        while True:
+            ending = self._take(waiting)
+            if waiting and self._try(waiting):
+                waiting.clear()
+            elif waiting:
+                ending = self._closing.wait(RETRY_S) or ending
+            if ending and (not waiting or self._closing.is_set()):
+                return
+
+    def _take(self, waiting: list[_Pending]) -> bool:
+        """Add all that waits; block only when there is nothing to do. Say whether to end."""
+        try:
+            item = self._wanted.get(block=not waiting)
+            while True:
+                if item is None:
+                    return True
+                waiting.append(item)
+                item = self._wanted.get_nowait()
+        except queue.Empty:
+            return False
+
+    def _try(self, waiting: list[_Pending]) -> bool:
+        entries = tuple(entry for entry, _ in waiting)
+        keys = tuple(key for _, key in waiting if key is not None)
+        try:
+            self._journal.write(entries, keys)
+        except sa.exc.SQLAlchemyError as error:
+            why = str(error).splitlines()[0][:200]
+            self._loop.call_soon_threadsafe(self._complain, why)
+            return False
+        self._loop.call_soon_threadsafe(self._note, entries[-1].entry)
+        return True
+
+    # The event loop -----------------------------------------------------------------------------
 
     def _note(self, entry: int) -> None:
         self._safe, self.trouble = entry, None

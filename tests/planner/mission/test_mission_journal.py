@@ -6,10 +6,9 @@ import asyncio
 import json
 import resource
 import sqlite3
-import threading
 import time
-from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, closing, contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -22,7 +21,6 @@ from planner.mission import journal as journal_module
 from planner.mission.effects import Journal
 from planner.mission.goal_history import GoalHistory
 from planner.mission.journal import PRUNE_MOST, SCHEMA
-from planner.mission.journal_sync import JournalWriter, PendingEntry
 from planner.mission.state import MAX_ENDED, GoalKey, Mission
 from planner.plan import Code, GoalState, Language, Outcome, Say, StepPlan, StepState
 from planner.skills.skill_state import FindState
@@ -254,45 +252,49 @@ def test_a_row_of_a_former_program_still_loads_whole(tmp_path: Path) -> None:
     assert (kept.current_step.kind, kept.current_step.state) == ("go_to", StepState.RUNNING)
 
 
-def test_the_writer_reports_safe_only_what_is_written(tmp_path: Path) -> None:
-    journal = MissionJournal.in_home(tmp_path)
-    safe: list[int] = []
-    written = threading.Event()
+class Opened:
+    """Hold a disk that writes, and the entries that it called safe."""
 
-    def done(entry: int) -> None:
-        safe.append(entry)
-        if entry == 5:
-            written.set()
+    def __init__(self, home: Path) -> None:
+        self.disk = JournalSync(MissionJournal.in_home(home))
+        self.safe: list[int] = []
 
-    writer = JournalWriter(journal, done, lambda why: None)
-    for number in range(1, 6):
-        writer.write(PendingEntry(Journal(number, (mission("a", 1, step=number),), ())))
-    assert written.wait(10.0)
-    writer.close()
-    assert safe == sorted(safe)
+    async def until(self, holds: Callable[[], bool]) -> None:
+        async with asyncio.timeout(10.0):
+            while not holds():  # noqa: ASYNC110  # the thread tells the loop alone
+                await asyncio.sleep(0.01)
+
+
+@asynccontextmanager
+async def writing(home: Path) -> AsyncIterator[Opened]:
+    opened = Opened(home)
+    await opened.disk.open(opened.safe.append)
+    yield opened
+    await opened.disk.close()
+
+
+async def test_the_writer_reports_safe_only_what_is_written(tmp_path: Path) -> None:
+    async with writing(tmp_path) as opened:
+        for number in range(1, 6):
+            opened.disk.write(Journal(number, (mission("a", 1, step=number),), ()))
+        await opened.until(lambda: 5 in opened.safe)
+    assert opened.safe == sorted(opened.safe)
     after = MissionJournal.in_home(tmp_path)
     assert after.load().missions[0].step == 5
     after.close()
 
 
-def test_a_disk_that_refuses_is_tried_again_and_nothing_is_called_safe(tmp_path: Path) -> None:
-    journal = MissionJournal.in_home(tmp_path)
-    on_disk(tmp_path, "drop table facts")
-    safe: list[int] = []
-    failed, done = threading.Event(), threading.Event()
-
-    def on_done(entry: int) -> None:
-        safe.append(entry)
-        done.set()
-
-    writer = JournalWriter(journal, on_done, lambda why: failed.set())
-    writer.write(PendingEntry(Journal(1, (mission("a", 1),), ())))
-    assert failed.wait(10.0)
-    assert safe == []
-    on_disk(tmp_path, "create table facts (name varchar(32) primary key, value text not null)")
-    assert done.wait(10.0)
-    assert safe == [1]
-    writer.close()
+async def test_a_disk_that_refuses_is_tried_again_and_nothing_is_called_safe(
+    tmp_path: Path,
+) -> None:
+    async with writing(tmp_path) as opened:
+        on_disk(tmp_path, "drop table facts")
+        opened.disk.write(Journal(1, (mission("a", 1),), ()))
+        await opened.until(lambda: opened.disk.trouble is not None)
+        assert opened.safe == []
+        on_disk(tmp_path, "create table facts (name varchar(32) primary key, value text not null)")
+        await opened.until(lambda: bool(opened.safe))
+        assert opened.safe == [1]
 
 
 WRITE = """
@@ -338,7 +340,7 @@ async def test_an_entry_that_is_safe_as_the_wait_ends_is_not_called_lost(
     await disk.open(lambda _: None)
     waiting = asyncio.create_task(disk.wait(1))
     await asyncio.sleep(0)
-    disk._from_thread(1)
+    asyncio.get_running_loop().call_soon_threadsafe(disk._note, 1)
     time.sleep(0.05)  # noqa: ASYNC251  # the loop is held up: both come in one turn
     await waiting
     await disk.close()
@@ -379,33 +381,24 @@ def pages(most: list[int]) -> Iterator[list[Any]]:
         sa.event.remove(sa.engine.Engine, "connect", connect)
 
 
-def test_a_full_disk_calls_nothing_safe_and_loses_nothing_once_there_is_room(
+async def test_a_full_disk_calls_nothing_safe_and_loses_nothing_once_there_is_room(
     tmp_path: Path,
 ) -> None:
     MissionJournal.in_home(tmp_path).close()
-    why: list[str] = []
-    full, done = threading.Event(), threading.Event()
-
-    def failed(text: str) -> None:
-        why.append(text)
-        full.set()
-
-    with pages([20]) as opened:
-        journal = MissionJournal.in_home(tmp_path)
-        writer = JournalWriter(journal, lambda entry: done.set(), failed)
-        missions = tuple(
-            Mission(id=f"g{i}", order=i, text="x" * 2000, language=Language.EN,
-                    state=GoalState.QUEUED, created_unix_s=1.0, updated_unix_s=1.0)
-            for i in range(40)
-        )  # fmt: skip
-        writer.write(PendingEntry(Journal(1, missions, ("g0",))))
-        assert full.wait(5.0)
-        assert "full" in why[0]
-        assert not done.is_set()
-        for connection in opened:
-            connection.execute("PRAGMA max_page_count=100000")
-        assert done.wait(5.0)
-        writer.close()
+    with pages([20]) as connections:
+        async with writing(tmp_path) as opened:
+            missions = tuple(
+                Mission(id=f"g{i}", order=i, text="x" * 2000, language=Language.EN,
+                        state=GoalState.QUEUED, created_unix_s=1.0, updated_unix_s=1.0)
+                for i in range(40)
+            )  # fmt: skip
+            opened.disk.write(Journal(1, missions, ("g0",)))
+            await opened.until(lambda: opened.disk.trouble is not None)
+            assert "full" in (opened.disk.trouble or "")
+            assert not opened.safe
+            for connection in connections:
+                connection.execute("PRAGMA max_page_count=100000")
+            await opened.until(lambda: bool(opened.safe))
     after = MissionJournal.in_home(tmp_path)
     assert len(after.load().missions) == 40
     after.close()
