@@ -198,7 +198,7 @@ class Planner:
 
     def _begin_memory(self, home: Path) -> None:
         """Let what the eyes see and what people tell and teach be remembered."""
-        self.goals.find_keys_by(self.history.find_key)
+        self.goals.repeats.find_older = self.history.find_key
         keep, names = self.memory.keep_skills, lambda: self.memory.vocabulary
         self.skills = SkillFolder(home, names, lambda read: keep(read.skills))
         self.goals.commands.skills = SkillKeeper(self.skills)

@@ -73,7 +73,8 @@ class Loop:
         self._needs = EyeNeeds()
         self._acts: dict[str, OpRequest] = {}
         self._surveyor = surveyor
-        self._obstacles: ScanSender | None = None
+        self.obstacles: ScanSender | None = None
+        """Shows scans to the route search."""
         self.call_tool: ToolCaller = call_nothing
 
     @property
@@ -105,10 +106,6 @@ class Loop:
         """Return why the journal can't be written, or None."""
         return self._disk.trouble
 
-    def rule(self, rules: Rules) -> None:
-        """Bound what goals may do by themselves, before anything starts."""
-        self._engine.book = replace(self._engine.book, rules=rules)
-
     def see(self, eyes: Eyes, looker: Looker | None, camera: CameraConfig) -> None:
         """Take the eyes, and the model that may be asked about their pictures."""
         self._eyes = eyes
@@ -123,22 +120,26 @@ class Loop:
         self.door.spent = spent
         self._engine.book = replace(self.book, eyes=replace(self.book.eyes, pictures=pictures))
 
-    def show_scans(self, obstacles: ScanSender) -> None:
-        """Show scans to the route search from now on."""
-        self._obstacles = obstacles
-
     def way_ahead(self) -> WayAhead | None:
         """Return the way from the robot on; None while it is to stand."""
         return self._engine.way_ahead(AHEAD_M)
 
     async def start(
-        self, think: Think, router: RouteService, *, freeze: bool, rounds: bool, recall: Recaller
+        self,
+        think: Think,
+        router: RouteService,
+        rules: Rules,
+        *,
+        freeze: bool,
+        rounds: bool,
+        recall: Recaller,
     ) -> tuple[GoalKey, ...]:
         """Take up the journal and begin; return the idempotency keys it kept.
 
         Args:
             think: understands sentences.
             router: finds ways.
+            rules: bound what goals may do by themselves.
             freeze: take the garbage collector over.
             rounds: turn the rounds; else whoever owns the clock calls ``hear`` and ``tick``.
             recall: asks memory.
@@ -146,6 +147,7 @@ class Loop:
         Raises:
             ConfigError: the journal holds what this version can't read.
         """
+        self._engine.book = replace(self.book, rules=rules)
         kept = await self._disk.open(self._on_safe)
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
         answers = Answers(
@@ -243,14 +245,14 @@ class Loop:
     def tick(self) -> None:
         """Let the missions look at the clock, and do what is to be done now and then."""
         self.event(Tick())
-        if self._obstacles is not None and self._obstacles.report is not None:
-            movers = self._obstacles.report.movers
+        if self.obstacles is not None and self.obstacles.report is not None:
+            movers = self.obstacles.report.movers
             self._surveyor.note_movers(movers, self._clocks.monotonic())
         told = self._surveyor.survey(self.book, self.leg, self._clocks.monotonic())
         if told is not None:
             self.event(told)
-        if self._obstacles is not None and (seen := self._obstacles.due()) is not None:
-            self._spawn(self._obstacles.show(seen, self.event))
+        if self.obstacles is not None and (seen := self.obstacles.due()) is not None:
+            self._spawn(self.obstacles.show(seen, self.event))
         for event in self._link.events():
             self.hub.publish({"type": "bridge", "event": event.model_dump(mode="json")})
         newest = self.book.status

@@ -59,13 +59,10 @@ from planner.site import KnownPlaces, Site
 from wire import OpRequest, RobotDescription
 
 if TYPE_CHECKING:
-    from collections.abc import Awaitable, Callable
-
     from planner.language.reading import ChangeReading
     from planner.memory import Recollection
     from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
-    from planner.mission.state import GoalKey
 
 
 class Missions:
@@ -93,24 +90,20 @@ class Missions:
         engine = Engine(MissionState(self.memory.facts), identity, robot)
         self._clocks, self._robot, self._brain = clocks or Clocks(), robot, brain
         self.loop = Loop(engine, link, disk, self._clocks, Surveyor(link, robot, site.grid))
-        clock, self._repeats = self._clocks.monotonic, Repeats()
+        clock, self.repeats = self._clocks.monotonic, Repeats()
         self._router = RouteAhead(router, self.loop, clock)
         self._hearing = Hearing(self.loop.hub.publish, self._router.expect, clock)
         self._lookup = MemoryLookup(self.loop, self._clocks.wall)
         self.commands = PlannerCommands(self._ask_brain, self.memory, self.loop, link, self._lookup)
         think = self.commands.think
-        self.points = StepGoals(self.loop, self.memory, survey, self._repeats, self._clocks, think)
-        self.standing = StandingGoals(self.loop, self._ask_brain, self._repeats)
+        self.points = StepGoals(self.loop, self.memory, survey, self.repeats, self._clocks, think)
+        self.standing = StandingGoals(self.loop, self._ask_brain, self.repeats)
         self.obstacles: ScanSender | None = None
         self.memory.listen(lambda: self.loop.event(Known(self.memory.facts)))
 
     def remember_by(self, recollection: Recollection) -> None:
         """Answer from this memory, and keep in it what people say."""
         self._lookup.remember_by(recollection)
-
-    def find_keys_by(self, find: Callable[[str], Awaitable[GoalKey | None]]) -> None:
-        """Look keys up here that are older than those at hand."""
-        self._repeats.find_older = find
 
     def see(self, eyes: Eyes, looker: Looker | None = None) -> None:
         """See with these eyes, and ask this model about their pictures."""
@@ -120,7 +113,7 @@ class Missions:
         """Show scans to the route search, which remembers what the map does not know."""
         of, ahead = (self._robot, self.memory.site.map_id, observer), self.loop.way_ahead
         self.obstacles = ScanSender(self.link, *of, ahead, self._clocks.monotonic)
-        self.loop.show_scans(self.obstacles)
+        self.loop.obstacles = self.obstacles
 
     async def start(
         self, *, freeze: bool = False, rules: Rules | None = None, rounds: bool = True
@@ -135,12 +128,11 @@ class Missions:
         Raises:
             ConfigError: the journal holds what this version can't read.
         """
-        self.loop.rule(rules or Rules())
         kept = await self.loop.start(
-            self.points.think, self._router, freeze=freeze, rounds=rounds,
+            self.points.think, self._router, rules or Rules(), freeze=freeze, rounds=rounds,
             recall=self._lookup.answer,
         )  # fmt: skip
-        self._repeats.recall(kept)
+        self.repeats.recall(kept)
 
     async def close(self) -> None:
         """End everything; a running goal comes back paused in the next process."""
@@ -182,15 +174,15 @@ class Missions:
             UnknownGoal: the request made a goal before that is at hand no more; the journal has it.
         """
         # A stop waits for no disk.
-        if self._repeats.may_be_older(idempotency_key) and not self.hears_stop(text):
-            await self._repeats.look_up(idempotency_key)
+        if self.repeats.may_be_older(idempotency_key) and not self.hears_stop(text):
+            await self.repeats.look_up(idempotency_key)
         said, goal_id = parse(text), self._clocks.new_id()
         act = None if is_agents(source) else act
         spoken, now_s = language or said.language, self._clocks.monotonic()
         given = Submitted(goal_id, text, spoken, confirm, replace, source=source, by=by)
         heard = receive(
             self.loop.book, said, given, now_s,
-            leaning=leaning, key=idempotency_key, repeats=self._repeats,
+            leaning=leaning, key=idempotency_key, repeats=self.repeats,
         )  # fmt: skip
         if heard.refused is not None:
             raise heard.refused
@@ -198,9 +190,9 @@ class Missions:
             return await self._stop_goal(heard.given, act)
         if heard.repeats is not None:
             return self.goal(heard.repeats)
-        self._repeats.remember(heard.request)
+        self.repeats.remember(heard.request)
         self._begin(heard, act)
-        await self._repeats.ensure_written(self.loop, goal_id, heard.request)
+        await self.repeats.ensure_written(self.loop, goal_id, heard.request)
         return self.goal(goal_id)
 
     def _begin(self, heard: Reception, act: OpRequest | None) -> None:
