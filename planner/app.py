@@ -271,7 +271,6 @@ class Planner:
         await self.recorder.close()
         await self.eyes.close()
         await self.goals.close()
-        self.history.close()
         for begun in (self._opening, self._warming):
             if begun is not None:
                 begun.cancel()

@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import asyncio
 import json
+import sqlite3
+from contextlib import closing
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import sqlalchemy as sa
 from pydantic import ValidationError
 
 from planner.mission.errors import UnknownGoal
@@ -24,7 +25,6 @@ from planner.plan import ENDED, Frozen, GoalState, Language
 from processes.parent_death import child_command
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
     from pathlib import Path
 
     from planner.mission.state import Mission
@@ -32,22 +32,20 @@ if TYPE_CHECKING:
 
 FILE = "missions.db"
 """The journal of a home."""
-meta = sa.MetaData()
-rows = sa.Table(
-    "history",
-    meta,
-    sa.Column("id", sa.String(64), primary_key=True),
-    sa.Column("order", sa.Integer, nullable=False, index=True),
-    sa.Column("created_unix_s", sa.Float, nullable=False, index=True),
-    sa.Column("updated_unix_s", sa.Float, nullable=False),
-    sa.Column("state", sa.String(32), nullable=False),
-    sa.Column("reason", sa.String(64)),
-    sa.Column("text", sa.Text, nullable=False),
-    sa.Column("language", sa.String(8), nullable=False),
-    sa.Column("source", sa.String(64), nullable=False),
-    sa.Column("metres", sa.Float, nullable=False),
-    sa.Column("told", sa.Text, nullable=False),
-)
+SCHEMA = """
+CREATE TABLE IF NOT EXISTS history (
+    id VARCHAR(64) PRIMARY KEY NOT NULL, "order" INTEGER NOT NULL, created_unix_s FLOAT NOT NULL,
+    updated_unix_s FLOAT NOT NULL, state VARCHAR(32) NOT NULL, reason VARCHAR(64),
+    text TEXT NOT NULL, language VARCHAR(8) NOT NULL, source VARCHAR(64) NOT NULL,
+    metres FLOAT NOT NULL, told TEXT NOT NULL);
+CREATE INDEX IF NOT EXISTS ix_history_order ON history ("order");
+CREATE INDEX IF NOT EXISTS ix_history_created_unix_s ON history (created_unix_s);
+"""
+"""One row a goal; the journal makes the table and writes it."""
+PUT_ROW = """
+REPLACE INTO history VALUES (:id, :order, :created_unix_s, :updated_unix_s, :state, :reason,
+    :text, :language, :source, :metres, :told)
+"""
 FIRST_CHARACTERS = 300
 """Of a sentence and of how it ended: the whole stands in its record."""
 
@@ -147,7 +145,6 @@ class GoalHistory:
     def __init__(self, path: Path) -> None:
         self._path = path
         self.tracks = TrackReader(path.parent)
-        self._made: sa.Engine | None = None
 
     @classmethod
     def in_home(cls, home: Path) -> GoalHistory:
@@ -174,38 +171,25 @@ class GoalHistory:
         """Return the request that came with a key, however long ago; None: it is a new one."""
         return await asyncio.to_thread(self._find_key, key)
 
-    def close(self) -> None:
-        """Give the connections back."""
-        if self._made is not None:
-            self._made.dispose()
-
-    @property
-    def _engine(self) -> sa.Engine:
-        """Return the connections, made when somebody first looks."""
-        if self._made is None:
-            self._made = sa.create_engine(f"sqlite:///{self._path.absolute()}")
-        return self._made
-
     def _find(self, query: HistoryQuery) -> HistoryPage:
-        if not self._path.exists():  # nothing was ever ordered here
-            return HistoryPage(goals=(), next=None)
-        wanted = sa.select(rows).where(*_conditions(query)).order_by(rows.c.order.desc())
-        with self._engine.connect() as connection:
-            found = connection.execute(wanted.limit(query.limit + 1)).mappings().all()
-        shown = tuple(_show(row) for row in found[: query.limit])
+        where, values = _conditions(query)
+        wanted = f'SELECT * FROM history WHERE {where} ORDER BY "order" DESC LIMIT :limit'
+        found = self._read(wanted, limit=query.limit + 1, **values)
+        shown = tuple(_show(dict(row)) for row in found[: query.limit])
         return HistoryPage(goals=shown, next=shown[-1].order if len(found) > len(shown) else None)
 
-    def _read(self, asked: sa.TextClause, **values: str | int) -> Sequence[Any]:
+    def _read(self, asked: str, **values: str | float) -> list[sqlite3.Row]:
         """Return the rows that are asked for; none where nothing was ever ordered here."""
         if not self._path.exists():
-            return ()
-        with self._engine.connect() as connection:
-            return connection.execute(asked, values).all()
+            return []
+        with closing(sqlite3.connect(self._path)) as connection:
+            connection.row_factory = sqlite3.Row
+            return connection.execute(asked, values).fetchall()
 
     def _changed_since(self, cursor: int, limit: int) -> ChangedGoals:
         found = self._read(_CHANGED, cursor=cursor, limit=limit)
         missions = tuple(read_mission(record) for record, _ in found)
-        return ChangedGoals(missions, found[-1].seq if found else cursor)
+        return ChangedGoals(missions, found[-1]["seq"] if found else cursor)
 
     def _find_key(self, key: str) -> GoalKey | None:
         found = self._read(_KEY, key=key)
@@ -215,7 +199,7 @@ class GoalHistory:
         found = self._read(_RECORD, goal=goal_id)
         if not found:
             raise UnknownGoal(goal_id, ())
-        mission, changed = read_mission(found[0].record), self._read(_CHANGES, goal=goal_id)
+        mission, changed = read_mission(found[0]["record"]), self._read(_CHANGES, goal=goal_id)
         changes: list[StateChange] = []
         for state, at_unix_s in changed:
             if not changes or changes[-1].state != state:
@@ -230,29 +214,35 @@ class GoalHistory:
         )
 
 
-_RECORD = sa.text("SELECT record FROM missions WHERE id = :goal")
-_CHANGED = sa.text(
-    "SELECT record, seq FROM missions JOIN (SELECT mission, MAX(seq) AS seq FROM transitions "
-    "WHERE seq > :cursor GROUP BY mission ORDER BY seq LIMIT :limit) ON id = mission ORDER BY seq"
-)
-_KEY = sa.text("SELECT key, body, goal FROM idempotency_keys WHERE key = :key")
-_CHANGES = sa.text("SELECT state, at_unix_s FROM transitions WHERE mission = :goal ORDER BY seq")
+_RECORD = "SELECT record FROM missions WHERE id = :goal"
+_CHANGED = """
+SELECT record, seq FROM missions JOIN (SELECT mission, MAX(seq) AS seq FROM transitions
+WHERE seq > :cursor GROUP BY mission ORDER BY seq LIMIT :limit) ON id = mission ORDER BY seq
+"""
+_KEY = "SELECT key, body, goal FROM idempotency_keys WHERE key = :key"
+_CHANGES = "SELECT state, at_unix_s FROM transitions WHERE mission = :goal ORDER BY seq"
 
 
-def _conditions(query: HistoryQuery) -> Iterator[sa.ColumnElement[bool]]:
-    if query.since_unix_s is not None:
-        yield rows.c.created_unix_s >= query.since_unix_s
-    if query.until_unix_s is not None:
-        yield rows.c.created_unix_s < query.until_unix_s
-    if query.state is not None:
-        yield rows.c.state == query.state.value
-    if query.before is not None:
-        yield rows.c.order < query.before
-    for word in (query.search or "").split():
-        yield rows.c.text.icontains(word, autoescape=True)
+def _conditions(query: HistoryQuery) -> tuple[str, dict[str, str | float]]:
+    """Return what a row must be, in SQL, and the values in it."""
+    found = ["TRUE"]
+    values: dict[str, str | float] = {}
+    for name, condition, value in (
+        ("since", "created_unix_s >= :since", query.since_unix_s),
+        ("until", "created_unix_s < :until", query.until_unix_s),
+        ("state", "state = :state", query.state),
+        ("before", '"order" < :before', query.before),
+    ):
+        if value is not None:
+            found.append(condition)
+            values[name] = value
+    for number, word in enumerate((query.search or "").split()):
+        found.append(f"instr(lower(text), lower(:word{number})) > 0")
+        values[f"word{number}"] = word
+    return " AND ".join(found), values
 
 
-def _show(row: sa.RowMapping) -> HistoryRow:
+def _show(row: dict[str, Any]) -> HistoryRow:
     fields = {name: row[name] for name in HistoryRow.model_fields if name in row}
     ended = GoalState(row["state"]) in ENDED
     lasted_s = round(row["updated_unix_s"] - row["created_unix_s"], 1) if ended else None

@@ -12,11 +12,10 @@ from __future__ import annotations
 import asyncio
 import logging
 import queue
+import sqlite3
 import threading
 from collections.abc import Callable
 from typing import Protocol
-
-import sqlalchemy as sa
 
 from planner.mission.effects import Journal
 from planner.mission.errors import JournalDown
@@ -147,9 +146,8 @@ class JournalSync:
         keys = tuple(key for _, key in waiting if key is not None)
         try:
             self._journal.write(entries, keys)
-        except sa.exc.SQLAlchemyError as error:
-            why = str(error).splitlines()[0][:200]
-            self._loop.call_soon_threadsafe(self._complain, why)
+        except sqlite3.Error as error:
+            self._loop.call_soon_threadsafe(self._complain, str(error)[:200])
             return False
         self._loop.call_soon_threadsafe(self._note, entries[-1].entry)
         return True

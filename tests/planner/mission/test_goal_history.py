@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import pytest
-import sqlalchemy as sa
 
 from planner.language.catalogue import message
 from planner.mission import goal_history
@@ -64,11 +65,9 @@ def test_pages_follow_each_other_without_a_gap_while_new_goals_come(tmp_path: Pa
 
 def test_ten_thousand_missions_are_read_page_by_page_and_none_is_left_out(tmp_path: Path) -> None:
     history = written(tmp_path, mission(1, "the oldest"))
-    engine = sa.create_engine(f"sqlite:///{tmp_path / goal_history.FILE}")
     more = [goal_history.row_of(mission(n, f"goal {n}")) for n in range(2, MANY + 1)]
-    with engine.begin() as connection:
-        connection.execute(sa.insert(goal_history.rows), more)
-    engine.dispose()
+    with closing(sqlite3.connect(tmp_path / goal_history.FILE)) as connection, connection:
+        connection.executemany(goal_history.PUT_ROW, more)
     before: int | None = None
     ids: list[str] = []
     while not ids or before is not None:
@@ -116,8 +115,8 @@ def test_a_story_holds_who_what_was_asked_and_when_its_state_changed(tmp_path: P
 
 def test_a_former_programs_goals_are_listed_as_well(tmp_path: Path) -> None:
     written(tmp_path, mission(1, "go home"))
-    with sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}").begin() as connection:
-        goal_history.meta.drop_all(connection)
+    with closing(sqlite3.connect(tmp_path / goal_history.FILE)) as connection:
+        connection.execute("DROP TABLE history")
     assert [goal.id for goal in found(written(tmp_path), HistoryQuery()).goals] == ["g1"]
 
 

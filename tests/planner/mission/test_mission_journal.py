@@ -7,13 +7,12 @@ import json
 import resource
 import sqlite3
 import time
-from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import asynccontextmanager, closing, contextmanager
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager, closing
 from pathlib import Path
 from typing import Any, cast
 
 import pytest
-import sqlalchemy as sa
 
 from planner.language.catalogue import message
 from planner.mission import JournalSync, MissionJournal
@@ -141,7 +140,7 @@ def test_the_queue_is_written_when_it_changes_within_a_batch_and_after_a_failure
     journal.write((Journal(2, (one,), ("a", "b")), Journal(3, (one,), ("a",))))
     assert kept() == ("a",)
     bad = GoalKey("k", "f", cast("str", None))
-    with pytest.raises(sa.exc.IntegrityError):
+    with pytest.raises(sqlite3.IntegrityError):
         journal.write((Journal(4, (one,), ("c",)),), (bad,))
     assert kept() == ("a",)
     journal.write((Journal(4, (one,), ("c",)),))
@@ -365,40 +364,23 @@ def test_words_are_not_said_on_a_full_disk(world: Together) -> None:
     assert world.said == []
 
 
-@contextmanager
-def pages(most: list[int]) -> Iterator[list[Any]]:
-    """Let databases grow to so many pages and no further; give their connections."""
-    opened: list[Any] = []
-
-    def connect(connection: Any, _: object) -> None:
-        connection.execute(f"PRAGMA max_page_count={most[0]}")
-        opened.append(connection)
-
-    sa.event.listen(sa.engine.Engine, "connect", connect)
-    try:
-        yield opened
-    finally:
-        sa.event.remove(sa.engine.Engine, "connect", connect)
-
-
 async def test_a_full_disk_calls_nothing_safe_and_loses_nothing_once_there_is_room(
     tmp_path: Path,
 ) -> None:
-    MissionJournal.in_home(tmp_path).close()
-    with pages([20]) as connections:
-        async with writing(tmp_path) as opened:
-            missions = tuple(
-                Mission(id=f"g{i}", order=i, text="x" * 2000, language=Language.EN,
-                        state=GoalState.QUEUED, created_unix_s=1.0, updated_unix_s=1.0)
-                for i in range(40)
-            )  # fmt: skip
-            opened.disk.write(Journal(1, missions, ("g0",)))
-            await opened.until(lambda: opened.disk.trouble is not None)
-            assert "full" in (opened.disk.trouble or "")
-            assert not opened.safe
-            for connection in connections:
-                connection.execute("PRAGMA max_page_count=100000")
-            await opened.until(lambda: bool(opened.safe))
+    missions = tuple(
+        Mission(id=f"g{i}", order=i, text="x" * 2000, language=Language.EN,
+                state=GoalState.QUEUED, created_unix_s=1.0, updated_unix_s=1.0)
+        for i in range(40)
+    )  # fmt: skip
+    async with writing(tmp_path) as opened:
+        connection = opened.disk._journal._connection
+        connection.execute("PRAGMA max_page_count=20")
+        opened.disk.write(Journal(1, missions, ("g0",)))
+        await opened.until(lambda: opened.disk.trouble is not None)
+        assert "full" in (opened.disk.trouble or "")
+        assert not opened.safe
+        connection.execute("PRAGMA max_page_count=100000")
+        await opened.until(lambda: bool(opened.safe))
     after = MissionJournal.in_home(tmp_path)
     assert len(after.load().missions) == 40
     after.close()

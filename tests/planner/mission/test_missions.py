@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import sqlite3
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, closing
 from pathlib import Path
 
 import pytest
-import sqlalchemy as sa
 
 from planner.brain.errors import BrainDown
 from planner.brain.scripted import Reply
@@ -198,10 +198,8 @@ async def test_without_a_journal_no_goal_is_taken(
 ) -> None:
     monkeypatch.setattr("planner.mission.journal_sync.SAFE_WITHIN_S", 0.2)
     async with start() as world:
-        engine = sa.create_engine(f"sqlite:///{tmp_path / 'missions.db'}")
-        with engine.begin() as connection:
-            connection.execute(sa.text("drop table missions"))
-        engine.dispose()
+        with closing(sqlite3.connect(tmp_path / "missions.db")) as connection:
+            connection.execute("drop table missions")
         with pytest.raises(JournalDown, match="missions"):
             await world.missions.submit("go to the sofa")
         assert world.missions.loop.trouble is not None
