@@ -273,19 +273,16 @@ def _places_ahead(last: Mission) -> set[str]:
 
 def last_orders(book: MissionState, now_unix_s: float) -> tuple[Mission, ...]:
     """Return the goals that were orders, the newest first, without those of long ago."""
-    orders = (m for m in book.missions.values() if _was_taken(m) or _was_read(m))
+    orders = (m for m in book.missions.values() if _is_order_of(m))
     recent = (m for m in orders if now_unix_s - m.created_unix_s <= LEANS_S)
     return tuple(sorted(recent, key=lambda m: -m.order))
 
 
-def _was_taken(mission: Mission) -> bool:
-    """Tell whether a goal had steps that the robot can do."""
-    return bool(mission.steps) and mission.state is not GoalState.REFUSED
-
-
-def _was_read(mission: Mission) -> bool:
-    """Tell whether a goal without steps is an order that a brain thinks or asks about."""
+def _is_order_of(mission: Mission) -> bool:
+    """Tell whether a goal had steps that the robot can do, or is thought or asked about."""
     plan = mission.plan
+    if mission.steps and mission.state is not GoalState.REFUSED:
+        return True
     lost = plan is not None and plan.code is Code.NOT_UNDERSTOOD
     return mission.state in _SPOKEN and not lost
 

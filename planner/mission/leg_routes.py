@@ -16,7 +16,7 @@ from dataclasses import replace
 from math import hypot
 
 from planner.bridge_client.bridge_status import standing
-from planner.mission.activity import Driving, LegHolds, LegRoutes, Manoeuvre, RoutePurpose
+from planner.mission.activity import Driving, LegHolds, Manoeuvre, RoutePurpose
 from planner.mission.events import Routed
 from planner.mission.legs import (
     MAX_ROUTES,
@@ -108,7 +108,9 @@ def _take_manoeuvre(
     elif routed.failure is not None:
         end_manoeuvre(turn, leg, own)
     elif own.way is Way.ASIDE and not routed.length_m > 0.0:
-        _stay_aside(turn, mission, leg, own)
+        # It can be passed where it is; a leg that is streamed goes on by itself.
+        until_s = turn.now_s + aside_s(mission.recovery)
+        turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
     else:
         _begin_manoeuvre(turn, mission, own, routed)
 
@@ -133,12 +135,6 @@ def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Rou
     seconds = HOLDS_S if routed.failure is not None else PASSING_S
     own = replace(own, part=1, until_s=turn.now_s + seconds, is_early=False)
     turn.change(manoeuvre=own, leg=None)
-
-
-def _stay_aside(turn: Transaction, mission: Progress, leg: LegRoutes, own: Manoeuvre) -> None:
-    """Stand where it is, where somebody can pass; a leg that is streamed goes on by itself."""
-    until_s = turn.now_s + aside_s(mission.recovery)
-    turn.change(manoeuvre=replace(own, part=1, until_s=until_s, stays=leg.leg is not None))
 
 
 def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Routed) -> None:

@@ -295,7 +295,10 @@ class Loop:
         self._link.send(output.messages)
         for message in output.messages:
             if isinstance(message, Waypoints) and message.points:
-                self._tell_first(message.mission)
+                goal, now_s = message.mission, self._clocks.monotonic()
+                if (took_s := self.accepted.first_waypoint(goal, now_s)) is not None:
+                    first = {"type": "first_waypoint", "goal": goal, "seconds": took_s}
+                    self.hub.publish(first)
         for effect in output.effects:
             self._do(effect)
         self._needs.tell(self.book, self._eyes)
@@ -315,11 +318,6 @@ class Loop:
         except Exception as error:
             self._break(error)
             raise
-
-    def _tell_first(self, goal_id: str) -> None:
-        took_s = self.accepted.first_waypoint(goal_id, self._clocks.monotonic())
-        if took_s is not None:
-            self.hub.publish({"type": "first_waypoint", "goal": goal_id, "seconds": took_s})
 
     def _do(self, effect: Effect) -> None:
         match effect:

@@ -19,7 +19,6 @@ from planner.language.formatting import angle, metres
 from planner.language.questions import find_elsewhere
 from planner.language.room_names import sorts_of_room
 from planner.mission.account import name_place
-from planner.mission.outcomes import plain_outcome
 from planner.mission.scene import name_deed, name_sought
 from planner.mission.state import Mission, MissionState
 from planner.plan import (
@@ -35,6 +34,7 @@ from planner.plan import (
     places_of,
 )
 from planner.skills import SKILLS
+from planner.skills.drive_to_place import tell_unknown_place
 from planner.skills.object_matching import anybody_for, picks_out, read_object
 from planner.skills.object_query import place_names, unknown_kind
 from planner.skills.result_text import unknown_name, unknown_words
@@ -63,22 +63,17 @@ def unwalkable(
     )
     if rejection is None:
         elsewhere = _find_unknown_place(book, mission, steps)
-        return _unknown_place(book, elsewhere) if elsewhere is not None else None
+        said = None if elsewhere is None else tell_unknown_place(book.facts, elsewhere)
+        return None if said is None else Outcome(code=Code.UNKNOWN_PLACE, message=said)
     first = rejection.first
     match first.code:
         case Code.BAD_PLAN:
             said = message(first.code, why=say("plan.flaw", what=first.what) if steps else NO_STEPS)
         case Code.UNKNOWN_PLACE:
-            return _unknown_place(book, first.what)
+            said = tell_unknown_place(book.facts, first.what)
         case _:
             said = first.said or message(first.code, part=say_or_quote("step_kind", first.what))
     return Outcome(code=first.code, message=said)
-
-
-def _unknown_place(book: MissionState, name: str) -> Outcome:
-    """Return that a place is unknown, with those that are known."""
-    known = list_names(target.name for target in book.facts.targets.values())
-    return plain_outcome(Code.UNKNOWN_PLACE, name=name, near="", known=known)
 
 
 def _find_unknown_place(

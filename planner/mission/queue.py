@@ -12,7 +12,7 @@ from __future__ import annotations
 from planner.mission.activity import TIMED, Activity, AskingImage, Driving, Observing, Thinking
 from planner.mission.effects import ClearHold, DropBrain
 from planner.mission.outcomes import ended_outcome, failure, plain_outcome
-from planner.mission.state import AGENT_SOURCE, GivenOrder, Mission, Progress
+from planner.mission.state import AGENT_SOURCE, Mission, Progress
 from planner.mission.transaction import Transaction
 from planner.mission.transitions import Cause, GoalFact, PersonCause, next_state
 from planner.plan import Bilingual, Code, GoalState, Outcome, PauseReason, StepState
@@ -26,14 +26,10 @@ def enqueue(turn: Transaction, mission: Mission, cause: Cause, *, first: bool = 
     """Let a planned mission wait for the robot; ``cause`` is why it may."""
     waiting = tuple(i for i in turn.book.queue if i != mission.id)
     turn.move_to(mission, cause, reason=None, held=False, kept=False)
-    later = (n for n, i in enumerate(waiting) if _was_asked_after(turn.book.missions[i], mission))
+    others = (turn.book.missions[i] for i in waiting)
+    later = (n for n, m in enumerate(others) if m.order > mission.order and not _goes_first(m))
     at = 0 if first else next(later, len(waiting))
     turn.set(queue=(*waiting[:at], mission.id, *waiting[at:]))
-
-
-def _was_asked_after(other: Mission, mission: GivenOrder) -> bool:
-    """Tell whether another mission only waits for its turn, and was asked for later."""
-    return other.order > mission.order and not _goes_first(other)
 
 
 def _goes_first(mission: Mission) -> bool:

@@ -10,7 +10,6 @@ is laid anew. What the bridge should be asked for is a level, read from the book
 from __future__ import annotations
 
 from planner.bridge_client.ownership import STAND, MotionRequest
-from planner.language.catalogue import list_names, message
 from planner.mission import events
 from planner.mission.activity import AskingImage, Driving
 from planner.mission.effects import Effect
@@ -47,6 +46,7 @@ from planner.plan import (
     places_of,
 )
 from planner.site.site_view import SiteView
+from planner.skills.drive_to_place import tell_unknown_place
 from planner.skills.object_matching import names_any
 
 
@@ -194,8 +194,7 @@ def _find_lost(mission: Mission, before: SiteView, now: SiteView) -> str | None:
 
 
 def _end(turn: Transaction, mission: Mission, name: Bilingual, facts: SiteView) -> None:
-    known = list_names(target.name for target in facts.targets.values())
-    said = message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
+    said = tell_unknown_place(facts, name)
     if turn.book.running == mission.id:
         end_running(turn, GoalFact.PLACE_GONE, Code.UNKNOWN_PLACE, GONE, said=said)
         return

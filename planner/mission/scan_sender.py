@@ -93,9 +93,13 @@ class ScanSender:
         if self._busy or aged is None or not aged.age_s <= FRESH_S:
             return None
         scan = aged.value
-        if self._was_shown(scan) or now_s - self._shown_s < PERIOD_S:
+        newest, taken = self.shown, (scan.boot_id, scan.seq)
+        was_shown = newest is not None and taken == (newest.boot_id, newest.seq)
+        if was_shown or now_s - self._shown_s < PERIOD_S:
             return None
-        stance = self._poses.at(_middle_s(scan))
+        # The middle of the sweep stands for the whole of it.
+        sweep_s = scan.time_increment_s * max(0, len(scan.ranges_m) - 1)
+        stance = self._poses.at(scan.stamp_s + 0.5 * sweep_s)
         if stance is None:
             return None
         self.shown, self._shown_s, self._busy = scan, now_s, True
@@ -110,10 +114,6 @@ class ScanSender:
             at_s=now_s,
             ahead=_first_metres(self._way.points) if self._way is not None else (),
         )
-
-    def _was_shown(self, scan: Scan) -> bool:
-        newest = self.shown
-        return newest is not None and (scan.boot_id, scan.seq) == (newest.boot_id, newest.seq)
 
     async def show(
         self, seen: ScanObservation, tell: Callable[[RouteDoubted | Oncoming | ClosingIn], None]
@@ -167,11 +167,6 @@ def _first_metres(way: tuple[Point, ...]) -> tuple[Point, ...]:
         if gone_m > DOUBTS_M:
             return way[:count]
     return way
-
-
-def _middle_s(scan: Scan) -> float:
-    """Return the instant that stands for a whole sweep."""
-    return scan.stamp_s + 0.5 * scan.time_increment_s * max(0, len(scan.ranges_m) - 1)
 
 
 EVERY_S = 0.5

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import TYPE_CHECKING
 
 from planner.bridge_client.bridge_status import standing, worst_row
@@ -19,7 +20,6 @@ from wire import Pose2, Status
 if TYPE_CHECKING:
     from planner.mission.activity import RouteDoubt
     from planner.mission.recovery import ShutWay
-    from planner.site.site_view import Target
 
 
 OLD_S = 1.0
@@ -206,12 +206,8 @@ def spot_of(facts: SiteView, point: tuple[float, float]) -> Bilingual:
     here = min(inside, key=lambda room: area_m2(room.polygon or ()), default=None)
     if here is None:
         return say("obstruction.at_point")
-    beside = [room for room in rooms if room is not here and _borders(room, point)]
-    if not beside:
+    others = [(border_distance_m(r.polygon or (), *point), r.name) for r in rooms if r is not here]
+    far_m, other = min(others, key=lambda each: each[0], default=(inf, here.name))
+    if not far_m <= DOOR_M:
         return say("obstruction.in_room", room=here.name)
-    other = min(beside, key=lambda room: border_distance_m(room.polygon or (), *point))
-    return say("obstruction.at_door", room=here.name, other=other.name)
-
-
-def _borders(room: Target, point: tuple[float, float]) -> bool:
-    return border_distance_m(room.polygon or (), *point) <= DOOR_M
+    return say("obstruction.at_door", room=here.name, other=other)

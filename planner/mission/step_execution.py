@@ -24,6 +24,7 @@ from planner.mission.effects import AskEyes, AskMemory, AskTool, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import ended_outcome, moves, plain_outcome
 from planner.mission.queue import (
+    dequeue,
     finish,
     next_up,
     note_step,
@@ -67,7 +68,8 @@ def start_next(turn: Transaction) -> None:
     while (mission := next_up(turn)) is not None:
         settle_amounts(turn, turn.book.pose)
         mission = turn.book.missions[mission.id]
-        turn.set(queue=tuple(i for i in turn.book.queue if i != mission.id), running=mission.id)
+        dequeue(turn, mission.id)
+        turn.set(running=mission.id)
         mission = turn.move_to(mission, GoalFact.TURN, reason=None, outcome=None)
         _look_anew(turn, mission)
         begin_step(turn)
@@ -91,7 +93,11 @@ def begin_step(turn: Transaction) -> None:
     mission = _enter(turn, turn.at_work)
     step = mission.current_step
     if step is None or step.state is StepState.SKIPPED:  # left out: only the way back was driven
-        _finish_mission(turn, mission)
+        if mission.failure is not None:
+            end_failed(turn, mission, mission.failure.message)
+            return
+        outcome = ended_outcome(turn, mission, outcome_code(mission), None)
+        finish(turn, mission, GoalFact.STEPS_OVER, outcome)
         return
     if step.state is StepState.FAILED:  # paused while a better plan was thought about
         think(turn, mission)
@@ -315,11 +321,3 @@ def _send_call(turn: Transaction, mission: Mission, calling: CallingTool) -> Non
     turn.emit(AskTool(mission.id, calling.ticket, *call, calling.agreed))
     turn.emit(SayAloud(mission.id, asking.of(mission.language)))
     turn.change(is_sent=True)
-
-
-def _finish_mission(turn: Transaction, mission: Mission) -> None:
-    if mission.failure is not None:
-        end_failed(turn, mission, mission.failure.message)
-        return
-    outcome = ended_outcome(turn, mission, outcome_code(mission), None)
-    finish(turn, mission, GoalFact.STEPS_OVER, outcome)

@@ -14,7 +14,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from planner.language.catalogue import list_names, message
-from planner.plan import Code
+from planner.plan import Bilingual, Code
 from planner.skills.actions import DriveLeg, Fail, Finish, Scene, SkillAction
 from wire import Pose2
 
@@ -32,9 +32,13 @@ def drive_to(scene: Scene[Any], place: str) -> DriveLeg | Fail:
 
 def place_gone(facts: SiteView, place: str) -> Fail:
     """Tell that a place was forgotten since the plan was made, and the places there are."""
+    return Fail(Code.UNKNOWN_PLACE, "place_gone", tell_unknown_place(facts, place))
+
+
+def tell_unknown_place(facts: SiteView, name: str | Bilingual) -> Bilingual:
+    """Tell that no place is called so, and the places there are."""
     known = list_names(target.name for target in facts.targets.values())
-    said = message(Code.UNKNOWN_PLACE, name=place, near="", known=known)
-    return Fail(Code.UNKNOWN_PLACE, "place_gone", said)
+    return message(Code.UNKNOWN_PLACE, name=name, near="", known=known)
 
 
 def go_to(scene: Scene[None]) -> SkillAction:
