@@ -6,55 +6,14 @@ import dataclasses
 
 from planner.language.catalogue import join, say
 from planner.language.sentence import parse
+from planner.mission import open_questions, plan_roles, queue
 from planner.mission.activity import Thinking
 from planner.mission.awaited_word import TAKES_YES, AwaitedWord, wait_of
 from planner.mission.conversation import question_of
 from planner.mission.events import Planned, Restarted, Submitted
 from planner.mission.follow_up import departure_of, newest_order, way_back_of
-from planner.mission.open_questions import (
-    ask_anew,
-    ask_plainly,
-    ask_which,
-    close_older,
-    complete_order,
-    find_offered_plan,
-    keep_answer,
-    make_room,
-    note_answer,
-    take_answer,
-    take_no,
-    take_sentence,
-    tell_offer,
-    waiting_since,
-)
 from planner.mission.outcomes import plain_outcome
 from planner.mission.plan_check import UNASKED, ask_for_motion, unwalkable
-from planner.mission.plan_roles import (
-    ask_what_was_meant,
-    assume_role,
-    corrects,
-    end_current,
-    end_paused,
-    end_stopped,
-    find_asking,
-    goal_in_hand,
-    share_of,
-    stop_after_all,
-    tell_left,
-)
-from planner.mission.queue import (
-    acknowledge_hold,
-    cancel,
-    clear_hold,
-    enqueue,
-    finish,
-    hold_now,
-    hold_queue,
-    pause_planning,
-    pause_running,
-    release_answered,
-    release_queue,
-)
 from planner.mission.replan import fingerprint, rethought
 from planner.mission.spoken_status import go_on_told
 from planner.mission.state import Mission
@@ -88,28 +47,30 @@ def submit(turn: Transaction, event: Submitted) -> None:
         return
     if event.stop or event.doubtful_stop:
         stop(turn, event.by)
-        end_paused(turn, event.denies)
+        plan_roles.end_paused(turn, event.denies)
     elif event.resumes:
-        acknowledge_hold(turn)
+        queue.acknowledge_hold(turn)
     if not (event.stop or event.local):
-        make_room(turn, event.text)
+        open_questions.make_room(turn, event.text)
     order, now_unix_s, here = turn.book.order + 1, turn.now_unix_s, turn.book.pose
     turn.set(order=order)
     mission = Mission(
         id=event.id, order=order, text=event.text, changed=event.changed, points=event.points,
         language=event.language, state=FIRST, confirm=event.confirm, replace=event.replace,
         first=event.first, doubtful_stop=event.doubtful_stop, interrupted=event.interrupts,
-        given_under_hold=hold_now(turn, event.source), source=event.source, by=event.by,
+        given_under_hold=queue.hold_now(turn, event.source), source=event.source, by=event.by,
         map_id=turn.book.facts.map_id,
         accepted_at=None if here is None else (here.x_m, here.y_m, here.yaw_rad),
         departed_at=departure_of(turn.book, turn.now_s),
         created_unix_s=now_unix_s, updated_unix_s=now_unix_s,
     )  # fmt: skip
     if event.stop or (event.doubtful_stop and not event.echoed):
-        end_stopped(turn, mission, event.echoed, event.also or tell_left(event.rest))
+        plan_roles.end_stopped(
+            turn, mission, event.echoed, event.also or plan_roles.tell_left(event.rest)
+        )
         return
     if event.asking:
-        asking = take_sentence(turn, mission, event.asking)
+        asking = open_questions.take_sentence(turn, mission, event.asking)
         if asking is not None:
             reply(turn, asking, event.text, event.by)
         return
@@ -140,49 +101,51 @@ def take_plan(turn: Transaction, event: Planned) -> None:
     plan = event.plan
     stepless = not isinstance(plan, StepPlan) or plan.does in STEPLESS
     if mission.doubtful_stop and stepless:
-        stop_after_all(turn, mission, event)
+        plan_roles.stop_after_all(turn, mission, event)
         return
     if plan is None:
         outcome = event.failure or plain_outcome(Code.BAD_PLAN, why=say("plan.no_answer"))
         mission = turn.put(mission, brain=event.brain)
         cause = BrainCause.FAILS if outcome.code is Code.MODEL_UNAVAILABLE else BrainCause.REFUSES
-        finish(turn, mission, cause, outcome, outcome.code.value)
+        queue.finish(turn, mission, cause, outcome, outcome.code.value)
         return
     mission = turn.put(mission, plan=plan_record(plan), brain=event.brain)
     if isinstance(plan, StepPlan) and plan.does in STEPLESS:
         _act_on_others(turn, mission, plan.does)
         return
     if isinstance(plan, StepPlan | Clarify):  # surely an order
-        close_older(turn, mission)
+        open_questions.close_older(turn, mission)
     match plan:
         case AnswerPlan():
             answer = plain_outcome(Code.ANSWERED, text=plan.text)
-            finish(turn, mission, BrainCause.ANSWERS, answer)
+            queue.finish(turn, mission, BrainCause.ANSWERS, answer)
         case Refuse():
             told = go_on_told(turn.book, plan.reason, turn.now_s)
             outcome = Outcome(code=plan.code, message=told)
-            finish(turn, mission, BrainCause.REFUSES, outcome, plan.code.value)
+            queue.finish(turn, mission, BrainCause.REFUSES, outcome, plan.code.value)
         case Clarify(options=(Option(plan=StepPlan(steps=(_, *_)) as offered),)) if (
             vain := unwalkable(turn.book, mission, plan_record(offered).steps)
         ):  # a yes would only be refused
             mission = turn.put(mission, plan=plan_record(offered))
-            finish(turn, mission, BrainCause.REFUSES, vain, vain.code.value)
+            queue.finish(turn, mission, BrainCause.REFUSES, vain, vain.code.value)
         case Clarify():
-            told = go_on_told(turn.book, tell_offer(mission, plan.question), turn.now_s)
+            told = go_on_told(
+                turn.book, open_questions.tell_offer(mission, plan.question), turn.now_s
+            )
             said = Outcome(code=plan.code, message=told)
             turn.move_to(mission, BrainCause.ASKS, reason=plan.code.value, outcome=said)
         case StepPlan():
-            share, back = share_of(plan), way_back_of(mission)
+            share, back = plan_roles.share_of(plan), way_back_of(mission)
             mission = turn.put(mission, speed_share=share, accepted_at=back)
-            _walkable(turn, assume_role(turn, mission, plan.does), event)
+            _walkable(turn, plan_roles.assume_role(turn, mission, plan.does), event)
 
 
 def _act_on_others(turn: Transaction, mission: Mission, role: PlanRole) -> None:
     """End the goal that a person means, or take the person's own words for a question's answer."""
     if role is PlanRole.CANCEL:
-        end_current(turn, mission, goal_in_hand(turn, mission))
+        plan_roles.end_current(turn, mission, plan_roles.goal_in_hand(turn, mission))
         return
-    asking = find_asking(turn, mission)
+    asking = plan_roles.find_asking(turn, mission)
     if asking is not None:
         reply(turn, asking, mission.words, mission.by)
 
@@ -192,15 +155,15 @@ def _walkable(turn: Transaction, mission: Mission, event: Planned) -> None:
     outcome = unwalkable(turn.book, mission, mission.steps)
     if outcome is not None and mission.doubtful_stop:
         left = outcome.message if parse(mission.text).behind_stop else None
-        end_stopped(turn, mission, echoed=True, also=left)
+        plan_roles.end_stopped(turn, mission, echoed=True, also=left)
         return
     if outcome is not None:
-        finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
+        queue.finish(turn, mission, BrainCause.REFUSES, outcome, outcome.code.value)
         return
     mission = turn.put(mission, tried=(fingerprint(mission.steps),))
     shall_i = ask_for_motion(turn.book.facts, (), mission.steps, event.unasked)
-    if mission.doubtful_stop and not (shall_i is None and corrects(turn, mission)):
-        asked = ask_what_was_meant(turn.book, mission)
+    if mission.doubtful_stop and not (shall_i is None and plan_roles.corrects(turn, mission)):
+        asked = plan_roles.ask_what_was_meant(turn.book, mission)
         if shall_i is not None:  # a yes is a yes to all that is asked
             asked = join((shall_i.message, asked))
         said = Outcome(code=Code.CONFIRM, message=asked)
@@ -209,7 +172,7 @@ def _walkable(turn: Transaction, mission: Mission, event: Planned) -> None:
         sure = None if event.sure is None else plan_record(event.sure)
         turn.move_to(mission, BrainCause.NEEDS_YES, reason=UNASKED, outcome=shall_i, sure=sure)
     elif mission.doubtful_stop:  # it stands, and what was said in its place is what was asked
-        end_paused(turn, mission.interrupted)
+        plan_roles.end_paused(turn, mission.interrupted)
         ready(turn, turn.put(mission, confirm=False), BrainCause.PLANS)
     elif mission.confirm:
         turn.move_to(mission, BrainCause.NEEDS_YES)
@@ -219,44 +182,46 @@ def _walkable(turn: Transaction, mission: Mission, event: Planned) -> None:
 
 def ready(turn: Transaction, mission: Mission, cause: Cause) -> None:
     """Let a planned goal wait for the robot, or take it from the one it replaces."""
-    clear_hold(turn, mission)
+    queue.clear_hold(turn, mission)
     if mission.has_begun:  # it was asked under way, and goes on where it stood
-        release_answered(turn)
-        enqueue(turn, mission, cause, first=True)
+        queue.release_answered(turn)
+        queue.enqueue(turn, mission, cause, first=True)
         return
-    if mission.replace and (replaced := goal_in_hand(turn, mission)) is not None:
-        cancel(turn, replaced)
-    enqueue(turn, mission, cause, first=mission.replace or mission.first)
+    if mission.replace and (replaced := plan_roles.goal_in_hand(turn, mission)) is not None:
+        queue.cancel(turn, replaced)
+    queue.enqueue(turn, mission, cause, first=mission.replace or mission.first)
 
 
 def confirm(turn: Transaction, mission: Mission, by: str) -> None:
     """Take a person's yes."""
-    ready(turn, keep_answer(turn, mission, None, by), PersonCause.AGREES)
+    ready(turn, open_questions.keep_answer(turn, mission, None, by), PersonCause.AGREES)
 
 
 def reply(turn: Transaction, mission: Mission, text: str, by: str) -> None:
     """Take a person's answer: to a step's question, to a plan, or to one about the order itself."""
-    mission = keep_answer(turn, mission, text, by)
-    ask_anew(turn, mission)
+    mission = open_questions.keep_answer(turn, mission, text, by)
+    open_questions.ask_anew(turn, mission)
     agreed, waits = parse(text).consent, wait_of(mission)
     if waits is AwaitedWord.STEP:
-        take_answer(turn, mission, text)
+        open_questions.take_answer(turn, mission, text)
     elif agreed is False and waits in (*TAKES_YES, AwaitedWord.CHOICE):
-        take_no(turn, mission)
+        open_questions.take_no(turn, mission)
     elif agreed and waits is AwaitedWord.CHOICE:
-        ask_which(turn, mission)
+        open_questions.ask_which(turn, mission)
     elif waits is AwaitedWord.PLAN and agreed:
         ready(turn, mission, PersonCause.AGREES)
     elif waits is AwaitedWord.PLAN:
-        ask_plainly(turn, mission)
-    elif (offered := find_offered_plan(mission, text)) is not None:
-        mission = note_answer(turn, mission, text)
+        open_questions.ask_plainly(turn, mission)
+    elif (offered := open_questions.find_offered_plan(mission, text)) is not None:
+        mission = open_questions.note_answer(turn, mission, text)
         mission = turn.put(mission, replace=mission.replace or offered.does is PlanRole.INSTEAD)
         turn.move_to(mission, PersonCause.EXPLAINS, reason=None, outcome=None, plan=None)
         take_plan(turn, Planned(mission.id, offered, None, mission.brain))
     else:
-        deed = find_offered_plan(mission, text, is_standing=True)
-        mission = note_answer(turn, mission, complete_order(turn.book.facts, mission, text))
+        deed = open_questions.find_offered_plan(mission, text, is_standing=True)
+        mission = open_questions.note_answer(
+            turn, mission, open_questions.complete_order(turn.book.facts, mission, text)
+        )
         _think_anew(turn, mission, PersonCause.EXPLAINS, deed)
 
 
@@ -264,32 +229,32 @@ def pause(turn: Transaction, mission: Mission) -> None:
     """Pause a goal; if it was running, those who wait are kept waiting."""
     reason = PauseReason.OPERATOR.value
     if mission.state is GoalState.RUNNING:
-        pause_running(turn, reason, PersonCause.PAUSES)
+        queue.pause_running(turn, reason, PersonCause.PAUSES)
     elif mission.state is GoalState.PLANNING:
-        pause_planning(turn, mission, reason)
+        queue.pause_planning(turn, mission, reason)
     else:
         turn.put(mission, held=True, kept=True)
 
 
 def resume(turn: Transaction, mission: Mission) -> None:
     """Go on with a paused goal and let the queue go on; or let one that is kept waiting go."""
-    acknowledge_hold(turn)
+    queue.acknowledge_hold(turn)
     if mission.state is GoalState.QUEUED:
         turn.put(mission, held=False, kept=False)
         return
-    release_queue(turn)
+    queue.release_queue(turn)
     if mission.plan is None or not mission.steps:
         _think_anew(turn, mission, PersonCause.RESUMES_UNPLANNED)
     else:
-        enqueue(turn, turn.put(mission, outcome=None), PersonCause.RESUMES, first=True)
+        queue.enqueue(turn, turn.put(mission, outcome=None), PersonCause.RESUMES, first=True)
 
 
 def stop(turn: Transaction, by: str) -> None:
     """Stand. Running and thinking goals pause; those who wait are kept waiting."""
     reason = PauseReason.STOP.value
-    pause_running(turn, reason, PersonCause.PAUSES, by)
+    queue.pause_running(turn, reason, PersonCause.PAUSES, by)
     for mission in turn.book.goals_in(GoalState.PLANNING):
-        pause_planning(turn, turn.put(mission, stopped_by=by), reason)
+        queue.pause_planning(turn, turn.put(mission, stopped_by=by), reason)
     turn.set(pardoned=None, pardon_until_s=float("-inf"))
 
 
@@ -305,7 +270,7 @@ def restart(turn: Transaction, event: Restarted) -> None:
         order=order,
         wall_offset_s=event.wall_offset_s,
         local_offset_s=event.local_offset_s,
-        asked_s=waiting_since(missions, turn.now_s),
+        asked_s=open_questions.waiting_since(missions, turn.now_s),
     )
     for mission in missions.values():
         if mission.state in (GoalState.RUNNING, GoalState.PLANNING):
@@ -314,14 +279,14 @@ def restart(turn: Transaction, event: Restarted) -> None:
             turn.move_to(mission, GoalFact.RESTARTED, reason=reason, leg=leg)
         if not mission.has_ended and mission.map_id != turn.book.facts.map_id:
             _forget_poses(turn, turn.book.missions[mission.id])
-    hold_queue(turn)
+    queue.hold_queue(turn)
 
 
 def _forget_poses(turn: Transaction, mission: Mission) -> None:
     """Drop where a goal began on another map: a point of that map is nowhere on this one."""
     if mission.map_id and mission.began_at is not None:  # better unfinished than done twice
         said = Outcome(code=Code.NOT_REACHED, message=HOW_FAR_UNKNOWN)
-        finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "map_changed")
+        queue.finish(turn, mission, GoalFact.PROGRESS_UNKNOWN, said, "map_changed")
     elif mission.map_id:
         mission = turn.put(mission, accepted_at=None, departed_at=None, skill_state=None)
         if mission.state is GoalState.PAUSED:

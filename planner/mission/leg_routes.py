@@ -16,30 +16,12 @@ from dataclasses import replace
 from math import hypot
 
 from planner.bridge_client.bridge_status import standing
+from planner.mission import legs, recovery_steps
 from planner.mission.activity import Driving, LegHolds, Manoeuvre, RoutePurpose
 from planner.mission.events import Routed
-from planner.mission.legs import (
-    MAX_ROUTES,
-    RETRY_S,
-    abandon_route,
-    ask_route,
-    detour_failed,
-    give_up_goal,
-    new_leg,
-    take_short,
-    told_of_leg,
-    wait_beside,
-)
 from planner.mission.outcomes import spot_at
 from planner.mission.queue import note_step, settle_activity
 from planner.mission.recovery import PASSING_S, Recovery, aside_s, passes_m, rung_of
-from planner.mission.recovery_steps import (
-    end_manoeuvre,
-    next_rung,
-    note_recovery,
-    skip_rung,
-    way_shut,
-)
 from planner.mission.route_doubts import take_doubted
 from planner.mission.scene import scene_of
 from planner.mission.state import Mission, Progress
@@ -81,21 +63,21 @@ def on_routed(turn: Transaction, routed: Routed) -> None:
     elif leg.manoeuvre is not None:
         _take_manoeuvre(turn, mission, leg, leg.manoeuvre, routed)
     elif failure is None and leg.act.way is Way.STRAIGHT and not short_m <= SHORT_M:
-        take_short(turn, leg, short_m)
+        legs.take_short(turn, leg, short_m)
     elif failure is None and leg.act.exact and not short_m <= EXACT_M:
-        wait_beside(turn, mission, leg)
+        legs.wait_beside(turn, mission, leg)
     elif failure is None:
         _take_route(turn, mission, leg, routed)
     elif leg.act.way is not Way.ROUTE and leg.purpose is RoutePurpose.DETOUR:
-        detour_failed(turn, leg)
+        legs.detour_failed(turn, leg)
     elif failure == OCCUPIED and leg.act.way is Way.ROUTE:
-        wait_beside(turn, mission, leg)
+        legs.wait_beside(turn, mission, leg)
     elif leg.purpose is RoutePurpose.DETOUR:
         _no_way_round(turn, mission, leg, failure)
-    elif failure in TRANSIENT and leg.routes < MAX_ROUTES:
-        turn.change(routes=leg.routes + 1, retry_s=turn.now_s + RETRY_S)
+    elif failure in TRANSIENT and leg.routes < legs.MAX_ROUTES:
+        turn.change(routes=leg.routes + 1, retry_s=turn.now_s + legs.RETRY_S)
     elif mission.recovery.shut and failure == "no_route":
-        fail_step(turn, way_shut(turn, mission))
+        fail_step(turn, recovery_steps.way_shut(turn, mission))
     else:
         fail_step(turn, Fail(Code.NO_ROUTE, "no_route"))
 
@@ -106,7 +88,7 @@ def _take_manoeuvre(
     if own.is_early:
         _take_early(turn, mission, own, routed)
     elif routed.failure is not None:
-        end_manoeuvre(turn, leg, own)
+        recovery_steps.end_manoeuvre(turn, leg, own)
     elif own.way is Way.ASIDE and not routed.length_m > 0.0:
         # It can be passed where it is; a leg that is streamed goes on by itself.
         until_s = turn.now_s + aside_s(mission.recovery)
@@ -119,7 +101,7 @@ def _begin_manoeuvre(turn: Transaction, mission: Mission, own: Manoeuvre, routed
     if own.way is Way.ASIDE and passes_m(mission.recovery) > 0.0:
         until_s = turn.now_s + TURNED_S + routed.length_m / SLOWLY_MPS
         turn.change(manoeuvre=replace(own, until_s=max(own.until_s, until_s)))
-    new_leg(turn, mission)
+    legs.new_leg(turn, mission)
 
 
 def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Routed) -> None:
@@ -128,10 +110,10 @@ def _take_early(turn: Transaction, mission: Mission, own: Manoeuvre, routed: Rou
     Two that both drive towards each other stop too late.
     """
     if routed.failure is None and routed.length_m > 0.0:
-        noted = note_recovery(turn, mission, own.rung.recovery)
+        noted = recovery_steps.note_recovery(turn, mission, own.rung.recovery)
         _begin_manoeuvre(turn, noted, own, routed)
         return
-    note_recovery(turn, mission, Recovery.WAIT)
+    recovery_steps.note_recovery(turn, mission, Recovery.WAIT)
     seconds = HOLDS_S if routed.failure is not None else PASSING_S
     own = replace(own, part=1, until_s=turn.now_s + seconds, is_early=False)
     turn.change(manoeuvre=own, leg=None)
@@ -146,13 +128,13 @@ def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Route
     detour = leg.purpose is RoutePurpose.DETOUR
     moved = detour and leg.act.way is Way.ROUTE and short_m > MOVED_M and end_m is not None
     if not moved:
-        new_leg(turn, mission)
+        legs.new_leg(turn, mission)
         if detour:
-            next_rung(turn)
+            recovery_steps.next_rung(turn)
         return
     record = mission.recovery
     if record.approaches + 1 >= MAX_APPROACHES or end_m is None:
-        give_up_goal(turn, mission, leg)
+        legs.give_up_goal(turn, mission, leg)
         return
     update = {
         "approaches": record.approaches + 1,
@@ -160,19 +142,19 @@ def _take_route(turn: Transaction, mission: Mission, leg: Driving, routed: Route
         "goal_moved": end_m,
     }
     mission = turn.put(mission, recovery=record.model_copy(update=update))
-    new_leg(turn, mission)
+    legs.new_leg(turn, mission)
     turn.change(rung_since_s=None, occupied_since_s=None)
 
 
 def _no_way_round(turn: Transaction, mission: Mission, leg: Driving, failure: str) -> None:
     """Go on up the ladder; a search that only broke is tried again."""
-    if failure in TRANSIENT and leg.routes < MAX_ROUTES:
+    if failure in TRANSIENT and leg.routes < legs.MAX_ROUTES:
         turn.change(routes=leg.routes + 1, rung_since_s=turn.now_s)
-        turn.change(retry_s=turn.now_s + RETRY_S if leg.leg is None else None)
+        turn.change(retry_s=turn.now_s + legs.RETRY_S if leg.leg is None else None)
     elif leg.leg is None and _waits_on(turn, mission, leg):
-        turn.change(retry_s=turn.now_s + RETRY_S)
+        turn.change(retry_s=turn.now_s + legs.RETRY_S)
     else:
-        skip_rung(turn, leg)
+        recovery_steps.skip_rung(turn, leg)
 
 
 def _waits_on(turn: Transaction, mission: Progress, leg: LegHolds) -> bool:
@@ -184,12 +166,12 @@ def _waits_on(turn: Transaction, mission: Progress, leg: LegHolds) -> bool:
 
 def on_arrival(turn: Transaction) -> bool:
     """Go on in the step if the bridge says that its leg is done; say whether that happened."""
-    driving, leg, status = turn.leg, told_of_leg(turn), turn.book.status
+    driving, leg, status = turn.leg, legs.told_of_leg(turn), turn.book.status
     pose = turn.book.pose
     if leg is None or status is None or pose is None or not (leg.reached and standing(status)):
         return False
     if _is_outside(turn, driving, pose):
-        abandon_route(turn)
+        legs.abandon_route(turn)
         return True
     mission = settle_activity(turn)
     state = driving.act.then or mission.skill_state
@@ -227,7 +209,7 @@ def reconsider_viewpoint(turn: Transaction) -> None:
         return
     if leg.ticket is None and now_s - max(leg.since_s, leg.explore_asked_s) >= AGAIN_S:
         turn.change(explore_asked_s=now_s)
-        ask_route(turn, RoutePurpose.EXPLORE)
+        legs.ask_route(turn, RoutePurpose.EXPLORE)
 
 
 def take_better_viewpoint(
@@ -262,7 +244,7 @@ def take_viewpoint(turn: Transaction, mission: Mission, leg: Driving, routed: Ro
         otherwise=act.otherwise.but(known_m2=known_m2) if act.otherwise is not None else None,
     )
     turn.change(act=act)
-    new_leg(turn, mission)
+    legs.new_leg(turn, mission)
 
 
 _TAKEN_BESIDE = {

@@ -16,6 +16,7 @@ from planner.language.changes.reader import read_changes
 from planner.language.offered_choice import choose
 from planner.language.schedule import ScheduleCommand
 from planner.language.sentence import parse
+from planner.mission import queue
 from planner.mission.awaited_word import (
     ABOUT_ORDER,
     WAITS,
@@ -26,15 +27,6 @@ from planner.mission.awaited_word import (
 )
 from planner.mission.outcomes import ended_outcome, moves, plain_outcome
 from planner.mission.plan_check import key_of_deed, unwalkable
-from planner.mission.queue import (
-    clear_hold,
-    decline,
-    enqueue,
-    finish,
-    hold_now,
-    note_step,
-    release_answered,
-)
 from planner.mission.scene import scene_of, upon_yes, whole_deed
 from planner.mission.state import MAX_ANSWERS, MAX_OPEN, GivenOrder, Mission, MissionState, Planning
 from planner.mission.transaction import Transaction
@@ -112,7 +104,7 @@ def keep_answer(turn: Transaction, mission: Mission, said: str | None, by: str) 
         unix_s=turn.now_unix_s,
     )
     answers = (*mission.answers, answer)[-MAX_ANSWERS:]
-    return turn.put(mission, answers=answers, given_under_hold=hold_now(turn, mission.source))
+    return turn.put(mission, answers=answers, given_under_hold=queue.hold_now(turn, mission.source))
 
 
 def note_answer(turn: Transaction, mission: Mission, text: str) -> Mission:
@@ -174,18 +166,18 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
     """
     facts, agreed = turn.book.facts, parse(text).consent
     if agreed or (agreed is None and upon_yes(facts, mission) is None):
-        clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
-    mission = note_step(turn, mission, answer=text[:MAX_ANSWER])
+        queue.clear_hold(turn, mission)  # the plan was accepted before, and a person lets it go on
+    mission = queue.note_step(turn, mission, answer=text[:MAX_ANSWER])
     state = mission.skill_state
     if agreed and isinstance(state, BoundedSearchState) and state.offered:
         mission = _search_on(turn, mission, state)
-    release_answered(turn)
+    queue.release_answered(turn)
     if mission.current_step is not None and mission.current_step.kind == "ask":
         act = ask(scene_of(turn, mission))
         if isinstance(act, Fail) and act.said is not None:
-            decline(turn, mission, act.said)
+            queue.decline(turn, mission, act.said)
             return
-    enqueue(turn, turn.put(mission, outcome=None), PersonCause.AGREES, first=True)
+    queue.enqueue(turn, turn.put(mission, outcome=None), PersonCause.AGREES, first=True)
 
 
 def _search_on(turn: Transaction, mission: Mission, state: BoundedSearchState) -> Mission:
@@ -204,11 +196,11 @@ def _search_on(turn: Transaction, mission: Mission, state: BoundedSearchState) -
 def take_no(turn: Transaction, mission: Mission) -> None:
     """End a goal whose plan or only offer a person said no to."""
     if mission.has_begun:
-        release_answered(turn)
+        queue.release_answered(turn)
     if _offer_sure_reading(turn, mission):
         return
     deed = whole_deed(turn.book.facts, mission.steps[mission.step :])
-    decline(turn, mission, tell_declined(deed))
+    queue.decline(turn, mission, tell_declined(deed))
 
 
 def _offer_sure_reading(turn: Transaction, mission: Mission) -> bool:
@@ -308,4 +300,4 @@ def _repeat_question(mission: Mission) -> Bilingual:
 def _end(
     turn: Transaction, mission: Mission, said: Bilingual, cause: GoalFact, reason: str
 ) -> None:
-    finish(turn, mission, cause, ended_outcome(turn, mission, Code.NO_ANSWER, said), reason)
+    queue.finish(turn, mission, cause, ended_outcome(turn, mission, Code.NO_ANSWER, said), reason)

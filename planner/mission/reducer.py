@@ -10,20 +10,10 @@ is laid anew. What the bridge should be asked for is a level, read from the book
 from __future__ import annotations
 
 from planner.bridge_client.ownership import STAND, MotionRequest
-from planner.mission import events
+from planner.mission import events, goal_lifecycle
 from planner.mission.activity import AskingImage, Driving
 from planner.mission.effects import Effect
 from planner.mission.events import Command, Event, Fact
-from planner.mission.goal_lifecycle import (
-    confirm,
-    pause,
-    reply,
-    restart,
-    resume,
-    stop,
-    submit,
-    take_plan,
-)
 from planner.mission.leg_routes import on_routed
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import on_recalled, on_sight, on_told, on_tool_answered
@@ -136,13 +126,13 @@ def _fact(turn: Transaction, event: Fact) -> None:  # noqa: C901, PLR0912  # one
         case events.Surveyed():
             on_survey(turn, event)
         case events.Planned():
-            take_plan(turn, event)
+            goal_lifecycle.take_plan(turn, event)
         case events.Submitted():
-            submit(turn, event)
+            goal_lifecycle.submit(turn, event)
         case events.Stopped():
-            stop(turn, event.source)
+            goal_lifecycle.stop(turn, event.source)
         case events.Restarted():
-            restart(turn, event)
+            goal_lifecycle.restart(turn, event)
         case events.Known():
             on_known(turn, event.facts)
 
@@ -155,13 +145,13 @@ def _command(turn: Transaction, event: Command) -> None:
         case events.Cancel():
             cancel(turn, mission)
         case events.Pause():
-            pause(turn, mission)
+            goal_lifecycle.pause(turn, mission)
         case events.Resume():
-            resume(turn, mission)
+            goal_lifecycle.resume(turn, mission)
         case events.Confirm():
-            confirm(turn, mission, event.by)
+            goal_lifecycle.confirm(turn, mission, event.by)
         case events.Reply():
-            reply(turn, mission, event.text, event.by)
+            goal_lifecycle.reply(turn, mission, event.text, event.by)
         case events.Move():
             reorder(turn, event.id, event.before)
         case events.ChangeSpeed():

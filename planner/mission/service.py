@@ -15,25 +15,13 @@ from planner.brain.image_questions import Looker
 from planner.brain.interface import Brain
 from planner.bridge_client import Identity, Link, StopResult
 from planner.language.sentence import parse
+from planner.mission import events
 from planner.mission.agents import is_agents, refuse_command
 from planner.mission.api_view import goal_of, tell_book
 from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
 from planner.mission.engine import Engine
 from planner.mission.errors import NothingToResume, UnknownGoal
-from planner.mission.events import (
-    Cancel,
-    Command,
-    Confirm,
-    Known,
-    Move,
-    Pause,
-    Planned,
-    Reply,
-    Resume,
-    Stopped,
-    Submitted,
-)
 from planner.mission.given_points import RobotSurvey, StepGoals
 from planner.mission.journal_sync import Disk
 from planner.mission.loop import Loop
@@ -99,7 +87,7 @@ class Missions:
         self.points = StepGoals(self.loop, self.memory, survey, self.repeats, self._clocks, think)
         self.standing = StandingGoals(self.loop, self._ask_brain, self.repeats)
         self.obstacles: ScanSender | None = None
-        self.memory.listen(lambda: self.loop.event(Known(self.memory.facts)))
+        self.memory.listen(lambda: self.loop.event(events.Known(self.memory.facts)))
 
     def remember_by(self, recollection: Recollection) -> None:
         """Answer from this memory, and keep in it what people say."""
@@ -179,7 +167,7 @@ class Missions:
         said, goal_id = parse(text), self._clocks.new_id()
         act = None if is_agents(source) else act
         spoken, now_s = language or said.language, self._clocks.monotonic()
-        given = Submitted(goal_id, text, spoken, confirm, replace, source=source, by=by)
+        given = events.Submitted(goal_id, text, spoken, confirm, replace, source=source, by=by)
         heard = receive(
             self.loop.book, said, given, now_s,
             leaning=leaning, key=idempotency_key, repeats=self.repeats,
@@ -205,7 +193,7 @@ class Missions:
         self.loop.accepted.note(given.id, self._clocks.monotonic())
         self.loop.event(given, heard.request)
         if heard.takes_back is not None:
-            self.loop.event(Cancel(heard.takes_back))
+            self.loop.event(events.Cancel(heard.takes_back))
 
     def hears_stop(self, text: str) -> bool:
         """Return whether these words would stop the robot now, with any other meaning besides."""
@@ -217,11 +205,11 @@ class Missions:
 
     async def cancel(self, goal_id: str, *, source: str = "api") -> Goal:
         """End a goal. Raises UnknownGoal, BadState; NotOwnGoal: of an agent, another's."""
-        return await self._command(Cancel(goal_id), source=source)
+        return await self._command(events.Cancel(goal_id), source=source)
 
     async def pause(self, goal_id: str) -> Goal:
         """Keep a goal's place, standing. Raises UnknownGoal, BadState."""
-        return await self._command(Pause(goal_id))
+        return await self._command(events.Pause(goal_id))
 
     async def resume(self, goal_id: str | None = None, *, act: OpRequest | None = None) -> Goal:
         """Go on with a goal; without an id, with the one that was paused last.
@@ -230,11 +218,11 @@ class Missions:
         """
         if (wanted := goal_id or goal_to_resume(self.loop.book)) is None:
             raise NothingToResume
-        return await self._command(Resume(wanted), act)
+        return await self._command(events.Resume(wanted), act)
 
     async def confirm(self, goal_id: str, *, act: OpRequest | None = None, by: str = "api") -> Goal:
         """Say yes to a plan. Raises UnknownGoal, BadState."""
-        return await self._command(Confirm(goal_id, by), act)
+        return await self._command(events.Confirm(goal_id, by), act)
 
     async def answer(
         self, goal_id: str, text: str, *, act: OpRequest | None = None, by: str = "api",
@@ -250,7 +238,7 @@ class Missions:
             if heard.command is not None:
                 self.loop.obey(heard.command)
         elif (command := heard.command) is not None:
-            acts = isinstance(command, Reply) and not is_agents(source)
+            acts = isinstance(command, events.Reply) and not is_agents(source)
             await self._command(command, act if acts else None)
         if heard.sentence is not None:
             await self.submit(heard.sentence, act=act, by=by, leaning=heard.lean)
@@ -258,13 +246,13 @@ class Missions:
 
     async def move(self, goal_id: str, before: str | None = None) -> Goal:
         """Put a queued goal before another, or last. Raises UnknownGoal, BadState."""
-        return await self._command(Move(goal_id, before))
+        return await self._command(events.Move(goal_id, before))
 
     async def stop(self, source: str = "api") -> StopResult:
         """Stop now: horizon, brains and queue at once, and the bridge until it echoes, or 2 s."""
         saying = asyncio.ensure_future(self.link.stop(source))
         await asyncio.sleep(0)  # the first stop is on the wire before anything is written
-        self.loop.event(Stopped(source))
+        self.loop.event(events.Stopped(source))
         return await saying
 
     @property
@@ -297,7 +285,7 @@ class Missions:
         seq, goals = self.loop.hub.seq, self.goals()
         return {"seq": seq, "planner_id": self.planner_id, **tell_book(self.loop.book, goals)}
 
-    async def _stop_goal(self, given: Submitted, act: OpRequest | None = None) -> Goal:
+    async def _stop_goal(self, given: events.Submitted, act: OpRequest | None = None) -> Goal:
         result = await self.stop(given.by)
         act = self.link.sign_again(act)  # the stop has voided what was signed before it
         self.loop.keep_act(given.id, act if given.doubtful_stop else None)
@@ -305,17 +293,17 @@ class Missions:
         self.loop.event(dataclasses.replace(given, echoed=result.is_echoed, also=also))
         return self.goal(given.id)
 
-    async def _ask_brain(self, ask: AskBrain) -> Planned:
+    async def _ask_brain(self, ask: AskBrain) -> events.Planned:
         book, find, refuse = self.loop.book, self._lookup.find_relevant, self.commands.refuse_offer
         eyes = (self.memory.vocabulary, self._hearing, book.means, book.eyes.classes)
         return await thinker(self._brain, *eyes, remember=find, refuse_offer=refuse)(ask)
 
     async def _command(
-        self, command: Command, act: OpRequest | None = None, source: str = "api"
+        self, command: events.Command, act: OpRequest | None = None, source: str = "api"
     ) -> Goal:
         if (error := refuse_command(self.loop.book, command, source)) is not None:
             raise error
-        if isinstance(command, Resume):
+        if isinstance(command, events.Resume):
             self.loop.clear_hold(act)
         else:
             self.loop.keep_act(command.id, act)

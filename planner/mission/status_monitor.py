@@ -17,6 +17,7 @@ from planner.bridge_client.bridge_status import (
     shows,
     standing,
 )
+from planner.mission import legs
 from planner.mission.activity import (
     AskingImage,
     Driving,
@@ -26,15 +27,6 @@ from planner.mission.activity import (
     Waiting,
 )
 from planner.mission.leg_routes import on_arrival, reconsider_viewpoint
-from planner.mission.legs import (
-    abandon_route,
-    ask_route,
-    detour_if_due,
-    forget_beginnings,
-    hand_steers,
-    settle_amounts,
-    told_of_leg,
-)
 from planner.mission.open_questions import end_unanswered
 from planner.mission.outcomes import moves
 from planner.mission.perception_events import end_if_due, on_standing, stand_while_blind
@@ -72,10 +64,10 @@ def on_status(turn: Transaction, status: Status, off_path: bool, left_m: float |
     turn.set(status=status, status_s=turn.now_s)
     if standing_hold(turn) is not None:
         hold_queue(turn)
-    if hand_steers(turn, status):
-        forget_beginnings(turn)
+    if legs.hand_steers(turn, status):
+        legs.forget_beginnings(turn)
     elif standing(status):
-        settle_amounts(turn, status.base_in_map)
+        legs.settle_amounts(turn, status.base_in_map)
     if turn.running is None:
         return
     _measure(turn, before, status, min(silent_s, SILENCE_S), left_m)
@@ -209,14 +201,14 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
     if leg.manoeuvre is not None:
         watch_manoeuvre(turn, leg, status)
     elif off_path and leg.leg is not None:
-        abandon_route(turn)
+        legs.abandon_route(turn)
     elif leg.route_when_standing:
         if standing(status) and not shows(status, "POSE_JUMP"):
-            ask_route(turn)
+            legs.ask_route(turn)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
         climbed = turn.at_work.recovery.ladders > 0
         again = leg.detours_failed > 0 or leg.occupied_since_s is not None or climbed
-        ask_route(turn, RoutePurpose.DETOUR if again else RoutePurpose.LEG)
+        legs.ask_route(turn, RoutePurpose.DETOUR if again else RoutePurpose.LEG)
     elif leg.leg is not None:
         _watch_leg(turn, status, leg)
 
@@ -237,7 +229,7 @@ def _off_limits(turn: Transaction, leg: Driving) -> bool:
 
 def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     """Follow the leg that is streamed: blocked, refused, or forgotten by the bridge."""
-    leg = told_of_leg(turn)
+    leg = legs.told_of_leg(turn)
     refused = leg is not None and leg.refusal is not None
     follows = leg is not None and leg.following
     quiet = not (follows or status.blocked or holding_rows(status))
@@ -247,7 +239,7 @@ def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     turn.change(blocked_since_s=blocked_s, refused_since_s=refused_s, idle_since_s=idle_s)
     if refused_s is not None and turn.now_s - refused_s > REFUSED_S:
         turn.change(refused_since_s=None)
-        abandon_route(turn)
+        legs.abandon_route(turn)
     elif idle_s is not None and turn.now_s - idle_s > IDLE_S:
         pause_running(turn, PauseReason.BLOCKED.value)
     elif turn.book.nav2:
@@ -256,7 +248,7 @@ def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     elif driving.act.way is Way.ROUTE:
         _recover_or_go_on(turn, status)
     elif blocked_s is not None and driving.ticket is None:
-        detour_if_due(turn, driving, blocked_s)
+        legs.detour_if_due(turn, driving, blocked_s)
 
 
 def _recover_or_go_on(turn: Transaction, status: Status) -> None:

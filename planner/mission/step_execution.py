@@ -8,6 +8,7 @@ from __future__ import annotations
 from planner.bridge_client.bridge_status import cannot_move
 from planner.language.catalogue import message, say
 from planner.language.plan_words import name_call
+from planner.mission import queue
 from planner.mission.account import outcome_code
 from planner.mission.activity import (
     Asking,
@@ -23,15 +24,6 @@ from planner.mission.activity import (
 from planner.mission.effects import AskEyes, AskMemory, AskTool, SayAloud
 from planner.mission.legs import ask_route, measure_from, settle_amounts
 from planner.mission.outcomes import ended_outcome, moves, plain_outcome
-from planner.mission.queue import (
-    dequeue,
-    finish,
-    next_up,
-    note_step,
-    pause_running,
-    settle_activity,
-    yield_robot,
-)
 from planner.mission.scene import scene_of
 from planner.mission.state import Mission
 from planner.mission.step_failure import end_failed, fail_step, think, to_step
@@ -65,10 +57,10 @@ from planner.skills.skill_state import PatrolState
 
 def start_next(turn: Transaction) -> None:
     """Give the robot to the next in the queue, as long as it is free."""
-    while (mission := next_up(turn)) is not None:
+    while (mission := queue.next_up(turn)) is not None:
         settle_amounts(turn, turn.book.pose)
         mission = turn.book.missions[mission.id]
-        dequeue(turn, mission.id)
+        queue.dequeue(turn, mission.id)
         turn.set(running=mission.id)
         mission = turn.move_to(mission, GoalFact.TURN, reason=None, outcome=None)
         _look_anew(turn, mission)
@@ -97,7 +89,7 @@ def begin_step(turn: Transaction) -> None:
             end_failed(turn, mission, mission.failure.message)
             return
         outcome = ended_outcome(turn, mission, outcome_code(mission), None)
-        finish(turn, mission, GoalFact.STEPS_OVER, outcome)
+        queue.finish(turn, mission, GoalFact.STEPS_OVER, outcome)
         return
     if step.state is StepState.FAILED:  # paused while a better plan was thought about
         think(turn, mission)
@@ -105,7 +97,7 @@ def begin_step(turn: Transaction) -> None:
     cause = cannot_move(turn.book.status) if moves(step) else None
     if cause is not None:
         turn.set(activity=None)
-        pause_running(turn, cause)
+        queue.pause_running(turn, cause)
         return
     mission = measure_from(turn, mission, turn.book.pose)
     carry_out(turn, mission, act_of(scene_of(turn, mission)))
@@ -164,7 +156,7 @@ def carry_out(  # noqa: C901, PLR0912  # one case an act
 
 def _begin(turn: Transaction, mission: Mission, **record: object) -> Mission:
     """Note in the record of the current step that it runs."""
-    return note_step(turn, mission, state=StepState.RUNNING, reason=None, **record)
+    return queue.note_step(turn, mission, state=StepState.RUNNING, reason=None, **record)
 
 
 def _keep_state(turn: Transaction, mission: Mission, state: SkillStateBase | None) -> Mission:
@@ -230,7 +222,7 @@ def go_on(
     answer: ImageAnswer | None = None,
 ) -> None:
     """Go on in the step after a gaze or an answer: ask its skill what is next."""
-    mission = settle_activity(turn)
+    mission = queue.settle_activity(turn)
     mission = turn.put(mission, part=mission.part + 1, skill_state=then or mission.skill_state)
     carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
 
@@ -277,8 +269,8 @@ def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
 
 def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
     """Write the end of a step and begin the next."""
-    mission = settle_activity(turn)
-    mission = note_step(turn, mission, state=state, **record)
+    mission = queue.settle_activity(turn)
+    mission = queue.note_step(turn, mission, state=state, **record)
     if mission.plan is None or mission.returning:  # only the way back was left
         to_step(turn, mission, len(mission.steps))
         begin_step(turn)
@@ -310,7 +302,7 @@ def speak_if_safe(turn: Transaction) -> None:
             turn.emit(SayAloud(mission.id, activity.question.of(mission.language)))
         turn.set(asked_s={**turn.book.asked_s, mission.id: turn.now_s})
         said = plain_outcome(Code.ASKED, text=activity.question)
-        yield_robot(turn, mission, GoalFact.STEP_ASKS, "asked", said)
+        queue.yield_robot(turn, mission, GoalFact.STEP_ASKS, "asked", said)
 
 
 def _send_call(turn: Transaction, mission: Mission, calling: CallingTool) -> None:

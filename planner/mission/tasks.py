@@ -19,17 +19,7 @@ from typing import Any, Protocol, TypeVar
 
 from planner.bridge_client.bridge_status import standing
 from planner.language.catalogue import message, say
-from planner.mission.effects import (
-    AskBrain,
-    AskEyes,
-    AskMemory,
-    AskRoute,
-    AskTool,
-    DropBrain,
-    KeepPicture,
-    SavePicture,
-    TaskEffect,
-)
+from planner.mission import effects
 from planner.mission.events import Planned, Recalled, Told, ToolAnswered
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.state import MissionState
@@ -41,15 +31,15 @@ from wire import Pose2
 
 log = logging.getLogger(__name__)
 
-Recaller = Callable[[AskMemory], Awaitable[Recalled]]
+Recaller = Callable[[effects.AskMemory], Awaitable[Recalled]]
 """Look up what is remembered."""
-ToolCaller = Callable[[AskTool], Awaitable[ToolAnswered]]
+ToolCaller = Callable[[effects.AskTool], Awaitable[ToolAnswered]]
 """Call a tool of the owner's servers."""
-Think = Callable[[AskBrain], Awaitable[Planned]]
+Think = Callable[[effects.AskBrain], Awaitable[Planned]]
 """Understand a sentence. Cancelled at once when nobody waits for the answer any more."""
 
 
-async def call_nothing(ask: AskTool) -> ToolAnswered:
+async def call_nothing(ask: effects.AskTool) -> ToolAnswered:
     """Answer for a robot without tools."""
     why = say("tool_problem.tool_unknown")
     said = message(Code.TOOL_FAILED, call=ask.tool, why=why)
@@ -68,7 +58,7 @@ class Answers:
     """Name where answers go, and the lidar's points when a way round is wanted."""
 
     event: Callable[[Planned | Told | Recalled | ToolAnswered], None]
-    routed: Callable[[AskRoute, RouteResult | None, str | None], None]
+    routed: Callable[[effects.AskRoute, RouteResult | None, str | None], None]
     obstacles: Callable[[], tuple[tuple[float, float], ...]]
     broken: Callable[[BaseException], None]
     """Ours is broken, not the brain's or the router's: the mission loop must not go on."""
@@ -92,28 +82,28 @@ class MissionTasks:
         self._inquiries: dict[int, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
-    def help(self, ask: TaskEffect) -> None:
+    def help(self, ask: effects.TaskEffect) -> None:
         """Start to think, to search or to ask about pictures; keep one; stop thinking."""
         match ask:
-            case AskBrain():
+            case effects.AskBrain():
                 self._drop(ask.id)
                 self._eyes.note(ask.id)
                 self._thoughts[ask.id] = self._start(self._understand(ask))
-            case DropBrain():
+            case effects.DropBrain():
                 self._drop(ask.id)
-            case AskRoute():
+            case effects.AskRoute():
                 self.spawn(self._search(ask))
-            case KeepPicture():
+            case effects.KeepPicture():
                 self._eyes.keep(ask)
-            case SavePicture():
+            case effects.SavePicture():
                 saving = self._eyes.save(ask)
                 if saving is not None:
                     self.spawn(saving)
-            case AskMemory():
+            case effects.AskMemory():
                 self.spawn(self._look_up(ask))
-            case AskTool():
+            case effects.AskTool():
                 self.spawn(self._ask_tool(ask))
-            case AskEyes():
+            case effects.AskEyes():
                 self._inquiries[ask.ticket] = self._start(self._inquire(ask))
 
     def await_answer(self, ticket: int | None) -> None:
@@ -148,31 +138,31 @@ class MissionTasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
 
-    async def _understand(self, ask: AskBrain) -> None:
+    async def _understand(self, ask: effects.AskBrain) -> None:
         said = Outcome(code=Code.MODEL_UNAVAILABLE, message=message(Code.MODEL_UNAVAILABLE))
         answer = await _answer_of(self._think, ask, "the brain", Planned(ask.id, None, said))
         if self._thoughts.get(ask.id) is asyncio.current_task():
             del self._thoughts[ask.id]
             self._answers.event(answer)
 
-    async def _inquire(self, ask: AskEyes) -> None:
+    async def _inquire(self, ask: effects.AskEyes) -> None:
         unseen = Told(ask.id, ask.ticket, ImageAnswer(failure="unavailable"))
         told = await _answer_of(self._eyes.ask, ask, "the eyes", unseen)
         if self._inquiries.get(ask.ticket) is asyncio.current_task():
             del self._inquiries[ask.ticket]
             self._answers.event(told)
 
-    async def _look_up(self, ask: AskMemory) -> None:
+    async def _look_up(self, ask: effects.AskMemory) -> None:
         code = Code.MEMORY_UNAVAILABLE
         unknown = Recalled(ask.id, ask.ticket, code, message(code))
         self._answers.event(await _answer_of(self._recall, ask, "memory", unknown))
 
-    async def _ask_tool(self, ask: AskTool) -> None:
+    async def _ask_tool(self, ask: effects.AskTool) -> None:
         said = message(Code.TOOL_FAILED, call=ask.tool, why=say("tool_problem.bad_reply"))
         failed = ToolAnswered(ask.id, ask.ticket, said, problem="bad_reply")
         self._answers.event(await _answer_of(self._answers.call, ask, "a tool", failed))
 
-    async def _search(self, ask: AskRoute) -> None:
+    async def _search(self, ask: effects.AskRoute) -> None:
         obstacles = self._answers.obstacles() if ask.obstacles else ()
         obstacles += tuple(point for way in ask.shut for point in points_of(way))
         try:
@@ -185,7 +175,7 @@ class MissionTasks:
         self._answers.routed(ask, result, None)
 
 
-Asked = TypeVar("Asked", AskBrain, AskEyes, AskMemory, AskTool)
+Asked = TypeVar("Asked", effects.AskBrain, effects.AskEyes, effects.AskMemory, effects.AskTool)
 Answer = TypeVar("Answer", Planned, Told, Recalled, ToolAnswered)
 
 

@@ -17,7 +17,7 @@ from planner.language.schedule import ChangeOrders, ListOrders, OrderCommand, Sc
 from planner.language.sentence import parse
 from planner.mission.events import Planned
 from planner.mission.state import ORDER_SOURCE, GivenOrder
-from planner.orders import world
+from planner.orders import new_order, world
 from planner.orders.decision import (
     KeptOrders,
     NoneSuch,
@@ -29,18 +29,6 @@ from planner.orders.decision import (
     skip,
 )
 from planner.orders.errors import OrderRefusal
-from planner.orders.new_order import (
-    NewOrder,
-    OrderQuestion,
-    ask_which_day,
-    find_same,
-    is_remark,
-    judge_deed,
-    judge_new,
-    order_of_text,
-    put_time_before,
-    read_new_order,
-)
 from planner.orders.order import MAX_ORDER_CHARACTERS, StandingOrder, new_nonce
 from planner.orders.telling import OrderTelling
 from planner.plan import (
@@ -119,7 +107,7 @@ class OrderIntake:
                 return None if plan is None else Planned(ask.id, plan)
             command = command.otherwise
         planned = None if answered else await self._consider_deed(command, ask)
-        if planned is not None and is_remark(planned, command.problem):
+        if planned is not None and new_order.is_remark(planned, command.problem):
             return None  # "Tom comes home at six": the whole sentence is a brain's
         command = replace(command, order=ask.text) if answered else command  # of the order within
         return Planned(ask.id, await self._keep(command, ask, given, planned))
@@ -144,7 +132,7 @@ class OrderIntake:
         """Return why a standing order could not be kept if a person said it now; None: it could."""
         try:
             if isinstance(parse(text).intent, ScheduleCommand):
-                self._judge(order_of_text(text, None, "offer"))
+                self._judge(new_order.order_of_text(text, None, "offer"))
         except OrderRefusal as refused:
             return refused.message
         return None
@@ -164,18 +152,20 @@ class OrderIntake:
     ) -> AnswerPlan | Clarify | Refuse:
         """Keep a new order and tell it, or say why not."""
         try:
-            new = read_new_order(command, ask.language, given.text, given.source, ask.deed)
+            new = new_order.read_new_order(
+                command, ask.language, given.text, given.source, ask.deed
+            )
             order = await self.give(new, ask.id, planned)
         except OrderRefusal as refused:
             return refused.plan
-        except OrderQuestion as question:
+        except new_order.OrderQuestion as question:
             asked = question.asked
-            return asked if question.is_whole else put_time_before(asked, command.words)
+            return asked if question.is_whole else new_order.put_time_before(asked, command.words)
         return AnswerPlan(text=self.tell_one(order))
 
     async def give(
         self,
-        new: NewOrder,
+        new: new_order.NewOrder,
         goal_id: str,
         planned: Planned | None = None,
         allowed: tuple[StepRecord, ...] | None = None,
@@ -189,13 +179,15 @@ class OrderIntake:
             OrderQuestion: the brain asks about it, or its day may be either of two.
         """
         keeper, now_s = self._keeper, self._keeper.clocks.unix()
-        if (asked := ask_which_day(new, now_s, keeper.book.zone)) is not None:
-            raise OrderQuestion(asked, is_whole=True)
+        if (asked := new_order.ask_which_day(new, now_s, keeper.book.zone)) is not None:
+            raise new_order.OrderQuestion(asked, is_whole=True)
         rule = self._judge(new)
         if allowed is None:
-            allowed = judge_deed(new, planned) if planned else await self.weigh(new, goal_id)
+            allowed = (
+                new_order.judge_deed(new, planned) if planned else await self.weigh(new, goal_id)
+            )
         async with keeper.lock:
-            if (order := find_same(new, rule, keeper.book)) is None:
+            if (order := new_order.find_same(new, rule, keeper.book)) is None:
                 self._judge(new)  # of the room that is left by now
                 number = keeper.last_number + 1
                 order = StandingOrder(
@@ -212,21 +204,21 @@ class OrderIntake:
         self._note(order.id)
         return order
 
-    async def weigh(self, new: NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
+    async def weigh(self, new: new_order.NewOrder, goal_id: str) -> tuple[StepRecord, ...]:
         """Return what an order would do each time. Raises OrderRefusal, OrderQuestion."""
         self._judge(new)
         if new.reminder:  # its words are fixed: no brain is asked
             return plan_record(StepPlan(steps=(Say(text=new.reminder),))).steps
-        return judge_deed(
+        return new_order.judge_deed(
             new, await self._goals.consider(new.order, new.language, goal_id, new.text)
         )
 
-    def _judge(self, new: NewOrder) -> Rule:
+    def _judge(self, new: new_order.NewOrder) -> Rule:
         """Return the rule of an order that is given now. Raises OrderRefusal."""
         lacking = None
         if isinstance(new.when, EventRule):
             lacking = world.lacks(self._goals.book, new.when.event, self._report())
-        return judge_new(new, self._keeper.book, self._keeper.clocks.unix(), lacking)
+        return new_order.judge_new(new, self._keeper.book, self._keeper.clocks.unix(), lacking)
 
     # Changing -----------------------------------------------------------------------------------
 

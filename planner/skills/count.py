@@ -17,27 +17,13 @@ from planner.language.catalogue import message, say
 from planner.language.object_names import name_object, named_several
 from planner.language.questions import has_several_neighbours
 from planner.plan import Bilingual, Code
+from planner.skills import object_matching, search
 from planner.skills.actions import Finish, Question, Retry, Scene, SkillAction
 from planner.skills.find import unknown
 from planner.skills.longer_search import offer_more, tell_looked
 from planner.skills.look_around import look_round
 from planner.skills.model_search import seek, tell_count
-from planner.skills.object_matching import (
-    drop_doubles,
-    fits,
-    list_confirmed,
-    sure,
-    wanted_of,
-)
 from planner.skills.result_text import by_neighbour, name_count, room_name
-from planner.skills.search import (
-    PlaceFilter,
-    begin,
-    find_spent_budget,
-    keep_in_bounds,
-    ran_out,
-    spots,
-)
 from planner.skills.skill_state import CountState
 from planner.skills.viewpoints import NEAR
 
@@ -49,7 +35,7 @@ if TYPE_CHECKING:
 
 def count(scene: Scene[CountState]) -> SkillAction:
     """Return the next act towards seeing everything, or the number."""
-    wanted = wanted_of(scene)
+    wanted = object_matching.wanted_of(scene)
     if wanted is None and not scene.eyes.searches:
         return unknown(scene)
     pose = scene.pose
@@ -60,15 +46,15 @@ def count(scene: Scene[CountState]) -> SkillAction:
         if isinstance(by_model, CountState):
             return tell_count(scene.but(by_model))
         return by_model
-    scene = begin(scene, pose, wanted)
+    scene = search.begin(scene, pose, wanted)
     inside = _narrow(scene, pose, wanted)
-    if find_spent_budget(scene) is not None:
+    if search.find_spent_budget(scene) is not None:
         return _tell_count(inside, wanted)
-    next_ = look_round(scene, pose, spots(inside, pose), None)
+    next_ = look_round(scene, pose, search.spots(inside, pose), None)
     if isinstance(next_, CountState):
         changed = next_ != scene.state  # another room may be meant, where this one was shut
         return count(scene.but(next_)) if changed else _tell_count(inside, wanted)
-    act = keep_in_bounds(scene, pose, next_)
+    act = search.keep_in_bounds(scene, pose, next_)
     return _tell_count(inside.but(act), wanted) if isinstance(act, CountState) else act
 
 
@@ -82,7 +68,11 @@ def _narrow(scene: Scene[CountState], pose: Pose2, wanted: WantedObject) -> Scen
         return scene
     state, neighbours = scene.state, _neighbours(scene, wanted)
     has = {t.room or scene.facts.room_at(t.x_m, t.y_m) for t in neighbours}
-    left = [s for s in spots(scene, pose) if s.key not in state.spots and not s.key.endswith(NEAR)]
+    left = [
+        s
+        for s in search.spots(scene, pose)
+        if s.key not in state.spots and not s.key.endswith(NEAR)
+    ]
     to_see = {spot.room for spot in left}
     open_ = (r for r in state.order if r not in state.shut or r in state.rooms)
     room = next((r for r in open_ if r in has or r in to_see), None)
@@ -93,7 +83,11 @@ def _narrow(scene: Scene[CountState], pose: Pose2, wanted: WantedObject) -> Scen
 
 
 def _neighbours(scene: Scene[CountState], wanted: WantedObject) -> list[Thing]:
-    return [t for t in scene.sight.things if sure(t) and fits(t, wanted.by)]
+    return [
+        t
+        for t in scene.sight.things
+        if object_matching.sure(t) and object_matching.fits(t, wanted.by)
+    ]
 
 
 def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish | Question:
@@ -101,19 +95,19 @@ def _tell_count(scene: Scene[CountState], wanted: WantedObject) -> Finish | Ques
 
     None seen in a part of what was to be looked at is no number.
     """
-    state, inside = scene.state, PlaceFilter(scene)
-    seen = list_confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
-    number = len(drop_doubles(filter(inside, seen)))
+    state, inside = scene.state, search.PlaceFilter(scene)
+    seen = object_matching.list_confirmed(scene.sight, wanted, scene.now_s - scene.spent_s)
+    number = len(object_matching.drop_doubles(filter(inside, seen)))
     what = by_neighbour(_name_so_many(number, wanted.label, wanted.color), wanted)
     if number == 0 and wanted.by is not None and not any(map(inside, _neighbours(scene, wanted))):
         what = _name_so_many(0, wanted.by.label, wanted.by.color)
     place = room_name(scene.facts, scene.step.place)
     where = tell_looked(scene)
-    known = number > 0 or not ran_out(scene)
+    known = number > 0 or not search.ran_out(scene)
     if not known:
         name = by_neighbour(name_object(wanted.label, wanted.color), wanted)
         said = message(Code.NOT_FOUND, thing=name, looked=where)
-    elif place and not ran_out(scene):
+    elif place and not search.ran_out(scene):
         words = "object_step.saw_in" if number else "object_step.saw_none_in"
         said = say(words, what=what, place=place)
     else:

@@ -12,14 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 from planner.language.catalogue import join, say
 from planner.plan import StepRole
+from planner.skills import search
 from planner.skills.actions import Question
 from planner.skills.result_text import list_rooms, looked_in
-from planner.skills.search import (
-    find_spent_budget,
-    list_unseen,
-    may_go_on,
-    ran_out,
-)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,14 +30,14 @@ def tell_looked(scene: Scene[Any], alike: Sequence[Thing] = (), *, rooms: bool =
     shut = tuple(room for room in state.shut if room not in state.rooms)
     seen = state.rooms if rooms else ()
     return looked_in(
-        scene.facts, seen, shut, find_spent_budget(scene), alike, list_unseen(scene)
+        scene.facts, seen, shut, search.find_spent_budget(scene), alike, search.list_unseen(scene)
     )  # fmt: skip
 
 
 def offer_more(scene: Scene[Any], said: Bilingual) -> Question | None:
     """Return the question whether to look on, after what was seen; None where nobody is asked."""
-    unseen = list_unseen(scene)
-    if not (scene.offers and unseen and may_go_on(scene)) or scene.state.offered:
+    unseen = search.list_unseen(scene)
+    if not (scene.offers and unseen and search.may_go_on(scene)) or scene.state.offered:
         return None
     more = say("search.there", rooms=list_rooms(scene.facts, unseen))
     return Question(join((said, more)), scene.state.but(offered=True))
@@ -53,7 +48,7 @@ def takes_else(scene: Scene[Any]) -> bool:
 
     Where no room was looked in at all, nobody has searched yet.
     """
-    return scene.step.role is StepRole.WHEN and bool(scene.state.rooms) and ran_out(scene)
+    return scene.step.role is StepRole.WHEN and bool(scene.state.rooms) and search.ran_out(scene)
 
 
 def tell_else(scene: Scene[Any], said: Bilingual) -> Bilingual:

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from planner.brain.model_error_codes import REASONS
 from planner.language.catalogue import join, list_names, message, say
 from planner.plan import JUDGED, Bilingual, Code, PictureBill, say_same
+from planner.skills import search
 from planner.skills.actions import (
     AskImage,
     DriveLeg,
@@ -34,14 +35,6 @@ from planner.skills.image_errors import reason_of
 from planner.skills.longer_search import offer_more, takes_else, tell_else, tell_looked
 from planner.skills.look_around import look_round
 from planner.skills.result_text import NOWHERE, room_name
-from planner.skills.search import (
-    begin,
-    find_spent_budget,
-    keep_in_bounds,
-    list_unseen,
-    ran_out,
-    spots,
-)
 from planner.skills.search_bounds import bound_pictures
 from planner.skills.skill_state import DirectionSeen, ModelSearchState
 from planner.skills.viewpoints import HERE, Viewpoint
@@ -78,7 +71,7 @@ def seek(scene: Scene[Seeking], pose: Pose2, *, all_of_it: bool) -> SkillAction 
         pose: the robot's.
         all_of_it: a yes does not end it: how many there are is asked.
     """
-    scene = begin(scene, pose, None, first=not all_of_it)
+    scene = search.begin(scene, pose, None, first=not all_of_it)
     if scene.answer is not None and scene.state.asking:
         scene = replace(scene.but(_take_in(scene, pose, scene.answer)), answer=None)
     state = scene.state
@@ -87,7 +80,7 @@ def seek(scene: Scene[Seeking], pose: Pose2, *, all_of_it: bool) -> SkillAction 
     if state.asking and not _stands_there(state, pose):  # paused, and driven or turned meanwhile
         state = state.but(asking=False, views=state.views[:-1])
         scene = scene.but(state)
-    if find_spent_budget(scene) is not None or state.shown >= bound_pictures(scene):
+    if search.find_spent_budget(scene) is not None or state.shown >= bound_pictures(scene):
         return state
     if state.asking:
         words = scene.step.object or ""
@@ -103,14 +96,14 @@ def _look_on(scene: Scene[Seeking], pose: Pose2) -> SkillAction | Seeking:
         then = next_.then.but(asking=True, stood=stood)
         return replace(next_, looks=LOOKS, state=scene.state, then=then, bill=bill(scene))
     if isinstance(next_, DriveLeg):
-        act = keep_in_bounds(scene, pose, next_)
+        act = search.keep_in_bounds(scene, pose, next_)
         return replace(act, bill=bill(scene)) if isinstance(act, DriveLeg) else act
     return next_
 
 
 def _spots(scene: Scene[Seeking], pose: Pose2) -> tuple[Viewpoint, ...]:
     """Return one spot a room: each picture costs, and a model sees farther than a detector."""
-    return tuple(s for s in spots(scene, pose) if s.key == HERE or s.key.endswith("/0"))
+    return tuple(s for s in search.spots(scene, pose) if s.key == HERE or s.key.endswith("/0"))
 
 
 def _stands_there(state: ModelSearchState, pose: Pose2) -> bool:
@@ -292,7 +285,7 @@ def _answered_all(scene: Scene[Any]) -> bool:
 
 
 def _looked_at_all(scene: Scene[Any]) -> bool:
-    return _answered_all(scene) and not ran_out(scene)
+    return _answered_all(scene) and not search.ran_out(scene)
 
 
 def _why_not_all(scene: Scene[Any]) -> list[Bilingual]:
@@ -304,7 +297,7 @@ def _why_not_all(scene: Scene[Any]) -> list[Bilingual]:
         told.append(say("seek.bound", most=bound_pictures(scene)))
     elif state.unanswered:
         told.append(say("seek.missed", count=state.unanswered))
-    if state.seen and (list_unseen(scene) or ran_out(scene)):
+    if state.seen and (search.list_unseen(scene) or search.ran_out(scene)):
         where = tell_looked(scene, rooms=False)
         told += [where] if where != NOWHERE else []
     if _perhaps(state) and not seen_surely(state):
