@@ -7,16 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from planner.bridge_client import Identity
-from planner.mission.effects import (
-    AskBrain,
-    AskRoute,
-    ClearHold,
-    DropBrain,
-    Effect,
-    GoalChange,
-    Journal,
-    SayAloud,
-)
+from planner.mission import effects
 from planner.mission.engine import Engine, Output
 from planner.mission.events import Event, Journalled, Planned, Restarted, Sighted, Submitted
 from planner.mission.state import Mission, MissionState
@@ -27,8 +18,8 @@ from planner.skills import Eyesight, Way
 from tests.planner.mission.fakes import FACTS, HASH, PERIOD_S, FakeBridge, straight
 from wire import CameraConfig, Mode, Pose2
 
-Reply = Callable[[AskBrain], Planned | None]
-WayAnswer = Callable[[AskRoute], str | None]
+Reply = Callable[[effects.AskBrain], Planned | None]
+WayAnswer = Callable[[effects.AskRoute], str | None]
 """Return the code of a failure, or None for a straight way."""
 
 
@@ -61,9 +52,9 @@ class Together:
     stays_aside: bool = False
     """A way aside ends where the robot stands: it can be passed there."""
     now_s: float = 100.0
-    disk_entries: list[Journal] = field(default_factory=list)
+    disk_entries: list[effects.Journal] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
-    routes: list[AskRoute] = field(default_factory=list)
+    routes: list[effects.AskRoute] = field(default_factory=list)
     dropped: list[str] = field(default_factory=list)
     cleared: list[str] = field(default_factory=list)
     """Goals whose person's act was brought to the bridge; ``act`` clears its hold."""
@@ -100,33 +91,33 @@ class Together:
         for effect in output.effects:
             self.answer(effect)
 
-    def answer(self, effect: Effect) -> None:
+    def answer(self, effect: effects.Effect) -> None:
         match effect:
-            case Journal():
+            case effects.Journal():
                 self.disk_entries.append(effect)
                 if self.disk:
                     self.carry(self.engine.event(Journalled(effect.entry), self.now_s))
-            case AskBrain():
+            case effects.AskBrain():
                 plan = self.plans.get(effect.id)
                 if plan is not None:
                     self.event(Planned(effect.id, plan))
-            case AskRoute():
+            case effects.AskRoute():
                 self.routes.append(effect)
                 failure = self.way(effect)
                 points = self.lay(effect) if failure is None else None
                 floor, faces = None, self.faces
                 output = self.engine.take_route(effect, points, failure, self.now_s, floor, faces)
                 self.carry(output)
-            case SayAloud():
+            case effects.SayAloud():
                 self.said.append(effect.text)
-            case ClearHold():
+            case effects.ClearHold():
                 self.cleared.append(effect.id)
-            case DropBrain():
+            case effects.DropBrain():
                 self.dropped.append(effect.id)
-            case GoalChange():
+            case effects.GoalChange():
                 pass
 
-    def lay(self, ask: AskRoute) -> tuple[RoutePoint, ...]:
+    def lay(self, ask: effects.AskRoute) -> tuple[RoutePoint, ...]:
         """Return a straight way, or one with a bend in its middle."""
         start, goal = ask.request.start, self.ends or ask.request.goal
         if ask.way is Way.ASIDE and self.stays_aside:
@@ -226,11 +217,11 @@ class Rethinking(Together):
     """Let each goal's brain give one answer after the other; None: it thinks on."""
 
     thoughts: list[Any] = field(default_factory=list)
-    asked: list[AskBrain] = field(default_factory=list)
+    asked: list[effects.AskBrain] = field(default_factory=list)
     tag: BrainTag = TAG
 
     def answer(self, effect: Any) -> None:
-        if isinstance(effect, AskBrain):
+        if isinstance(effect, effects.AskBrain):
             self.asked.append(effect)
             thought = self.thoughts.pop(0) if self.thoughts else None
             if thought is not None:

@@ -6,17 +6,7 @@ from math import pi
 
 import pytest
 
-from planner.mission.events import (
-    Cancel,
-    ChangeSpeed,
-    ClosingIn,
-    Move,
-    Pause,
-    Planned,
-    Resume,
-    Stopped,
-    Tick,
-)
+from planner.mission import events
 from planner.mission.plan_roles import LEAST_SPEED_SHARE
 from planner.mission.route_doubts import LASTS_S, MEETING_SHARE
 from planner.plan import Code, ComeBack, GoTo, MoveStraight, ReturnHome, StepPlan, StepState, Turn
@@ -104,7 +94,7 @@ def test_nothing_moves_or_speaks_before_the_journal_is_safe(world: Together) -> 
 def test_second_goal_waits_its_turn(world: Together) -> None:
     first, second, third = (driving(world), world.give(go("hall")), world.give(go("dock")))
     assert world.book.queue == (second, third)
-    world.event(Move(third, second))
+    world.event(events.Move(third, second))
     assert world.book.queue == (third, second)
     world.run_until(first, SUCCEEDED)
     assert world.goal(third).state is RUNNING
@@ -117,7 +107,7 @@ def test_replace_ends_the_running_goal_once_the_new_one_is_understood(world: Tog
     thinking = world.give(None, replace=True)
     world.run(0.5)
     assert world.goal(first).state is RUNNING
-    world.event(Planned(thinking, go("dock")))
+    world.event(events.Planned(thinking, go("dock")))
     assert world.goal(first).state is CANCELLED
     assert world.book.running == thinking
     assert world.book.queue == (waiting,)
@@ -126,7 +116,7 @@ def test_replace_ends_the_running_goal_once_the_new_one_is_understood(world: Tog
 def test_stop_pauses_ends_streaming_and_holds_the_queue(world: Together) -> None:
     goal = driving(world)
     waiting, thinking = world.give(go("hall")), world.give(None)
-    world.event(Stopped("test"))
+    world.event(events.Stopped("test"))
     assert world.bridge.horizon is None, "a horizon of no points leaves at once"
     world.bridge.hold(HeldReason.STOP)
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "stop")
@@ -157,7 +147,7 @@ def test_a_goal_given_after_a_stop_runs_at_once_and_the_old_ones_stay(world: Tog
     world.run_until(fresh, SUCCEEDED)
     assert standing_still(world)
     assert (world.goal(paused).state, world.goal(waiting).state) == (PAUSED, QUEUED)
-    world.event(Resume(paused))
+    world.event(events.Resume(paused))
     world.run_until(waiting, SUCCEEDED)
     assert world.goal(paused).state is SUCCEEDED
 
@@ -173,10 +163,10 @@ def test_a_goal_whose_act_clears_nothing_pauses(world: Together) -> None:
 def test_pause_and_resume_keep_the_place(world: Together) -> None:
     goal = driving(world)
     waiting = world.give(go("hall"))
-    world.event(Pause(goal))
+    world.event(events.Pause(goal))
     assert standing_still(world)
     assert world.goal(waiting).held
-    world.event(Resume(goal))
+    world.event(events.Resume(goal))
     done = world.run_until(goal, SUCCEEDED)
     assert done.leg == 2
     assert done.metres == pytest.approx(4.0, abs=0.1)
@@ -185,7 +175,7 @@ def test_pause_and_resume_keep_the_place(world: Together) -> None:
 
 def test_cancel_halts_with_a_horizon_of_no_points(world: Together) -> None:
     goal = driving(world)
-    world.event(Cancel(goal))
+    world.event(events.Cancel(goal))
     last = world.bridge.waypoints[-1]
     assert (last.mission, last.points) == (goal, ())
     assert standing_still(world)
@@ -240,7 +230,7 @@ def test_bridge_restart_pauses_disarmed_and_arm_then_resume_goes_on(world: Toget
     assert outcome_of(mission).code is Code.NOT_ARMED
     world.bridge.mode = Mode.HOLD
     assert standing_still(world)
-    world.event(Resume(goal))
+    world.event(events.Resume(goal))
     world.run_until(goal, SUCCEEDED)
 
 
@@ -261,7 +251,7 @@ def test_short_loss_of_the_owner_goes_on_with_hello_and_grant(world: Together) -
 def test_silence_of_the_bridge_pauses(world: Together) -> None:
     goal = driving(world)
     world.now_s += 6.0
-    world.event(Tick())
+    world.event(events.Tick())
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "fault(BRAIN_GONE)")
 
 
@@ -324,7 +314,7 @@ def test_each_slower_halves_the_cap_down_to_a_quarter_and_faster_takes_it_back(
     world.run(1.0)
     seen = []
     for slower in (True, True, True, False, False, False):
-        world.event(ChangeSpeed(goal, slower=slower))
+        world.event(events.ChangeSpeed(goal, slower=slower))
         seen.append(world.goal(goal).speed_share)
     assert seen == [0.5, LEAST_SPEED_SHARE, LEAST_SPEED_SHARE, 0.5, 1.0, 1.0]
 
@@ -334,7 +324,7 @@ def test_no_waypoint_is_faster_than_the_cap(world: Together, share: float) -> No
     goal = world.give(go("kitchen"))
     world.run(1.0)
     while world.goal(goal).speed_share != share:
-        world.event(ChangeSpeed(goal, slower=True))
+        world.event(events.ChangeSpeed(goal, slower=True))
     world.run(0.2)
     assert fastest_mps(world) <= share * 0.5 + 1e-9
 
@@ -362,7 +352,7 @@ def test_the_operators_budget_pauses_and_a_person_goes_on(world: Together) -> No
     said = world.bridge.step().model_copy(update=spent)
     world.carry(world.engine.status(said, world.now_s + 0.05))
     assert (world.goal(goal).state, world.goal(goal).reason) == (PAUSED, "budget")
-    world.event(Resume(goal))
+    world.event(events.Resume(goal))
     world.run_until(goal, SUCCEEDED)
 
 
@@ -408,19 +398,19 @@ def test_another_robot_that_closes_in_is_met_at_half_the_speed_as_long_as_it_doe
     world.run(1.0)
     free_mps, leg = fastest_mps(world), world.engine.leg
     assert leg is not None
-    world.event(ClosingIn("another", leg.leg))
-    world.event(ClosingIn(leg.mission, leg.leg - 1))
+    world.event(events.ClosingIn("another", leg.leg))
+    world.event(events.ClosingIn(leg.mission, leg.leg - 1))
     world.run(0.2)
     assert fastest_mps(world) == free_mps, "it was told of another leg"
-    world.event(ClosingIn(leg.mission, leg.leg))
+    world.event(events.ClosingIn(leg.mission, leg.leg))
     world.run(0.2)
     assert fastest_mps(world) <= MEETING_SHARE * free_mps + 1e-9
     assert world.goal(goal).speed_share == 1.0, "which is a person's word"
-    world.event(ChangeSpeed(goal, slower=True))
-    world.event(ChangeSpeed(goal, slower=True))
+    world.event(events.ChangeSpeed(goal, slower=True))
+    world.event(events.ChangeSpeed(goal, slower=True))
     world.run(0.2)
     assert fastest_mps(world) <= LEAST_SPEED_SHARE * free_mps + 1e-9
     for _ in range(2):
-        world.event(ChangeSpeed(goal, slower=False))
+        world.event(events.ChangeSpeed(goal, slower=False))
     world.run(LASTS_S + 0.2)
     assert fastest_mps(world) == free_mps

@@ -8,19 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from planner.mission.events import (
-    Cancel,
-    Confirm,
-    Journalled,
-    Move,
-    Pause,
-    Planned,
-    Reply,
-    Resume,
-    Stopped,
-    Submitted,
-    Tick,
-)
+from planner.mission import events
 from planner.mission.open_questions import complete_order, has_room
 from planner.mission.state import MAX_ENDED, MAX_OPEN, Mission
 from planner.plan import (
@@ -77,9 +65,9 @@ def test_restart_brings_back_paused_and_never_driving() -> None:
     assert standing_still(after, 10.0)
     after.act()
     assert standing_still(after, 10.0), "queued goals wait for a person too"
-    after.event(Resume(goal))
+    after.event(events.Resume(goal))
     after.run_until(waiting, SUCCEEDED)
-    after.event(Resume(thinking))
+    after.event(events.Resume(thinking))
     assert after.goal(thinking).state is GoalState.PLANNING
 
 
@@ -89,7 +77,7 @@ def test_words_perhaps_said_before_a_crash_are_not_said_again() -> None:
     goal = before.give(talk("hi"))
     after = before.restart()
     after.run(0.2)
-    after.event(Resume(goal))
+    after.event(events.Resume(goal))
     after.act()
     done = after.run_until(goal, SUCCEEDED)
     assert after.said == []
@@ -100,28 +88,28 @@ def test_confirm_waits_for_a_yes(world: Together) -> None:
     goal = world.give(go("kitchen"), confirm=True)
     assert world.goal(goal).state is GoalState.AWAITING_CONFIRMATION
     assert standing_still(world)
-    world.event(Confirm(goal))
+    world.event(events.Confirm(goal))
     world.run_until(goal, SUCCEEDED)
 
 
 def test_a_question_waits_for_an_answer_and_holds_nobody(world: Together) -> None:
     goal = world.give(None)
     question = Bilingual(en="Which one?", zh="哪一个？")
-    world.event(Planned(goal, Clarify(code=Code.AMBIGUOUS, question=question)))
+    world.event(events.Planned(goal, Clarify(code=Code.AMBIGUOUS, question=question)))
     assert world.goal(goal).state is GoalState.NEEDS_CLARIFICATION
     other = world.give(go("hall"), source="somebody else")
     world.run_until(other, SUCCEEDED)
     world.plans[goal] = go("kitchen")
-    world.event(Reply(goal, "the kitchen"))
+    world.event(events.Reply(goal, "the kitchen"))
     world.run_until(goal, SUCCEEDED)
 
 
 def test_answers_and_refusals_end_at_once(world: Together) -> None:
     said = Bilingual(en="In the hall.", zh="在走廊。")
     told, refused, lost = (world.give(None) for _ in range(3))
-    world.event(Planned(told, AnswerPlan(text=said)))
-    world.event(Planned(refused, Refuse(code=Code.NO_CAPABILITY, reason=said)))
-    world.event(Planned(lost, None))
+    world.event(events.Planned(told, AnswerPlan(text=said)))
+    world.event(events.Planned(refused, Refuse(code=Code.NO_CAPABILITY, reason=said)))
+    world.event(events.Planned(lost, None))
     assert world.goal(told).state is SUCCEEDED
     assert world.goal(refused).state is GoalState.REFUSED
     assert world.goal(lost).state is GoalState.REFUSED
@@ -152,32 +140,32 @@ def test_what_cannot_be_walked_whole_is_refused_before_anything_moves(
 
 def test_an_order_to_stop_is_a_goal_that_is_done(world: Together) -> None:
     goal = driving(world)
-    world.event(Submitted("s1", "stop", Language.EN, stop=True))
+    world.event(events.Submitted("s1", "stop", Language.EN, stop=True))
     assert world.goal("s1").state is SUCCEEDED
     assert world.goal(goal).state is PAUSED
-    world.event(Submitted("s2", "stop", Language.EN, stop=True, echoed=False))
+    world.event(events.Submitted("s2", "stop", Language.EN, stop=True, echoed=False))
     assert (world.goal("s2").state, world.goal("s2").reason) == (FAILED, "bridge_silent")
 
 
 def test_thinking_and_queued_goals_can_be_paused_and_resumed(world: Together) -> None:
     running, queued, thinking = driving(world), world.give(go("hall")), world.give(None)
-    world.event(Pause(thinking))
+    world.event(events.Pause(thinking))
     assert (world.goal(thinking).state, world.dropped) == (PAUSED, [thinking])
-    world.event(Pause(queued))
+    world.event(events.Pause(queued))
     assert world.goal(queued).held
     world.run_until(running, SUCCEEDED)
     assert standing_still(world)
-    world.event(Resume(queued))
+    world.event(events.Resume(queued))
     world.run_until(queued, SUCCEEDED)
     world.plans[thinking] = go("dock")
-    world.event(Resume(thinking))
+    world.event(events.Resume(thinking))
     world.run_until(thinking, SUCCEEDED)
 
 
 def test_a_goal_put_last_is_last(world: Together) -> None:
     driving(world)
     second, third, fourth = (world.give(go("hall")) for _ in range(3))
-    world.event(Move(second))
+    world.event(events.Move(second))
     assert world.book.queue == (third, fourth, second)
     assert world.disk_entries[-1].queue == world.book.queue, "the order outlives us"
 
@@ -222,7 +210,7 @@ def test_it_asks_once_waits_and_goes_on_with_the_answer_written_down(world: Toge
     assert world.said == ["Shall I go on?"]
     assert (mission.reason, mission.outcome and mission.outcome.code) == ("asked", Code.ASKED)
     assert standing_still(world, 30.0)
-    world.event(Reply(goal, "yes, please"))
+    world.event(events.Reply(goal, "yes, please"))
     done = world.run_until(goal, SUCCEEDED)
     assert [s.state for s in done.steps] == [StepState.SUCCEEDED] * 3
     assert done.steps[1].answer == "yes, please"
@@ -237,7 +225,7 @@ def test_who_waited_waits_on_and_a_goal_given_now_runs(world: Together) -> None:
     assert world.goal(waiting).held, "a question of the running goal holds the queue"
     fresh = world.give(go("hall"))
     world.run_until(fresh, SUCCEEDED)
-    world.event(Reply(goal, "yes"))
+    world.event(events.Reply(goal, "yes"))
     world.run(0.2)
     assert world.book.running == goal
     world.run_until(waiting, SUCCEEDED)
@@ -246,10 +234,10 @@ def test_who_waited_waits_on_and_a_goal_given_now_runs(world: Together) -> None:
 def test_nobody_answers_and_the_robot_stays_where_it_is(world: Together) -> None:
     goal = asking(world)
     world.run(world.book.rules.answer_s - 5.0, every_s=0.25)
-    world.event(Tick())
+    world.event(events.Tick())
     assert world.goal(goal).state is ASKS
     world.run(6.0, every_s=0.25)
-    world.event(Tick())
+    world.event(events.Tick())
     mission = world.goal(goal)
     assert (mission.state, mission.reason) == (FAILED, "no_answer")
     assert [s.state for s in mission.steps][1:] == [StepState.FAILED, StepState.SKIPPED]
@@ -260,11 +248,11 @@ def test_nobody_answers_and_the_robot_stays_where_it_is(world: Together) -> None
 
 def test_a_stop_while_it_asks_needs_no_more_than_the_answer_to_go_on(world: Together) -> None:
     goal = asking(world)
-    world.event(Stopped("test"))
+    world.event(events.Stopped("test"))
     world.bridge.hold(HeldReason.STOP)
     assert standing_still(world, 3.0)
     assert world.goal(goal).state is ASKS
-    world.event(Reply(goal, "yes"))
+    world.event(events.Reply(goal, "yes"))
     world.act()
     world.run_until(goal, SUCCEEDED)
 
@@ -280,26 +268,26 @@ def test_an_answer_lets_nobody_go_whom_more_than_the_question_keeps(
         world = world.restart()
         world.run(0.2)
     elif what == "pause":
-        world.event(Pause(waiting))
+        world.event(events.Pause(waiting))
     else:
         if what == "stop":
-            world.event(Stopped("test"))
+            world.event(events.Stopped("test"))
         world.bridge.hold(HeldReason.STOP)
         world.run(0.2)
     fresh = world.give(go("dock"))
-    world.event(Reply(goal, "yes"))
+    world.event(events.Reply(goal, "yes"))
     world.act()
     world.run_until(goal, SUCCEEDED)
     world.run_until(fresh, SUCCEEDED)
     assert standing_still(world)
     assert world.goal(waiting).held
-    world.event(Resume(waiting))
+    world.event(events.Resume(waiting))
     world.run_until(waiting, SUCCEEDED)
 
 
 def test_a_question_can_be_cancelled(world: Together) -> None:
     goal = asking(world)
-    world.event(Cancel(goal))
+    world.event(events.Cancel(goal))
     assert world.goal(goal).state is CANCELLED
     assert standing_still(world)
 
@@ -316,12 +304,12 @@ def test_after_a_crash_it_still_asks_and_says_nothing_twice(told: bool) -> None:
     after.act()
     if not told:
         assert (after.goal(goal).state, after.goal(goal).reason) == (PAUSED, "planner_restarted")
-        after.event(Resume(goal))
+        after.event(events.Resume(goal))
     after.run(0.2)
     assert (after.goal(goal).state, after.said) == (ASKS, [])
     after.act()
     after.run(0.2)
-    after.event(Reply(goal, "me"))
+    after.event(events.Reply(goal, "me"))
     assert after.run_until(goal, SUCCEEDED).steps[0].answer == "me"
     assert after.said == ["well"]
 
@@ -330,10 +318,10 @@ def test_a_pause_before_the_question_was_said_asks_it_silently() -> None:
     world = Together(disk=False)
     world.run(0.2)
     goal = world.give(StepPlan(steps=(Ask(question="Who?"),)))
-    world.event(Pause(goal))
-    world.event(Resume(goal))
+    world.event(events.Pause(goal))
+    world.event(events.Resume(goal))
     world.disk = True
-    world.event(Journalled(world.book.written))
+    world.event(events.Journalled(world.book.written))
     assert (world.goal(goal).state, world.said) == (ASKS, [])
 
 
@@ -342,7 +330,7 @@ def test_forget_that_means_what_thinks_or_asks_where_nothing_runs(
     world: Together, asks: bool
 ) -> None:
     paused = world.give(go("hall"))
-    world.event(Pause(paused))
+    world.event(events.Pause(paused))
     first = world.give(PLAN if asks else None)
     if asks:
         world.run_until(first, ASKS)
@@ -376,9 +364,9 @@ def give(world: Rethinking, plan: Any, **more: Any) -> str:
 
 
 def later(world: Together, seconds: float) -> None:
-    world.event(Tick())
+    world.event(events.Tick())
     world.now_s += seconds
-    world.event(Tick())
+    world.event(events.Tick())
 
 
 @pytest.mark.parametrize("plan", KINDS)
@@ -410,7 +398,7 @@ def test_after_an_answer_the_next_question_has_its_whole_time() -> None:
     world, (goal,) = waiting(WHICH)
     world.thoughts.append(WHICH)
     later(world, world.book.rules.answer_s - 1.0)
-    world.event(Reply(goal, "hm"))
+    world.event(events.Reply(goal, "hm"))
     later(world, world.book.rules.answer_s - 1.0)
     assert world.goal(goal).state is ASKS
 
