@@ -13,15 +13,8 @@ from math import hypot
 from typing import TYPE_CHECKING, Protocol
 
 from planner.brain.situation import RememberedItem
+from planner.language import commands
 from planner.language.catalogue import message, say
-from planner.language.commands import (
-    ForgetFacts,
-    HereCommand,
-    Replace,
-    TeachFact,
-    name_subject,
-    read_fact_correction,
-)
 from planner.language.motion_guard.mentioned_names import places_named
 from planner.language.object_names import name_object
 from planner.language.recall import read_recall
@@ -177,7 +170,7 @@ class FactCommands:
     def __init__(self, lookup: MemoryLookup | None, places: KnownPlaces, loop: GoalBook) -> None:
         self._lookup, self._places, self._loop = lookup, places, loop
 
-    def read_correction(self, given: Mission, intent: Intent | None) -> TeachFact | None:
+    def read_correction(self, given: Mission, intent: Intent | None) -> commands.TeachFact | None:
         """Return the fact that a sentence puts in place of an older one; None where it does not.
 
         Args:
@@ -189,10 +182,10 @@ class FactCommands:
         if before is not None and before.state is GoalState.SUCCEEDED and not before.steps:
             said = parse(before.text)
             fact = said.intent or said.statement
-            told = fact.words if isinstance(fact, TeachFact) else None
-        if isinstance(intent, Replace | HereCommand) and told is None:
+            told = fact.words if isinstance(fact, commands.TeachFact) else None
+        if isinstance(intent, commands.Replace | commands.HereCommand) and told is None:
             return None
-        return read_fact_correction(given.text, told)
+        return commands.read_fact_correction(given.text, told)
 
     def answers_question(self, given: Mission) -> bool:
         """Tell whether something that was said just before is still asked about."""
@@ -207,19 +200,21 @@ class FactCommands:
         others = (m for m in self._loop.book.missions.values() if m.order < given.order)
         return max(others, key=lambda m: m.order, default=None)
 
-    async def carry_out(self, intent: TeachFact | ForgetFacts) -> AnswerPlan | Refuse:
+    async def carry_out(
+        self, intent: commands.TeachFact | commands.ForgetFacts
+    ) -> AnswerPlan | Refuse:
         """Do it and say how it went."""
         recollection = self._lookup.recollection if self._lookup is not None else None
         if recollection is None:
             return Refuse(code=Code.MEMORY_UNAVAILABLE, reason=message(Code.MEMORY_UNAVAILABLE))
         try:
-            if isinstance(intent, TeachFact):
+            if isinstance(intent, commands.TeachFact):
                 return await self._teach(recollection, intent)
             return await self._forget(recollection, intent)
         except FactRefusal as refused:
             return Refuse(code=Code.NOT_KEPT, reason=message(Code.NOT_KEPT, why=refused.said))
 
-    async def _teach(self, recollection: Recollection, intent: TeachFact) -> AnswerPlan:
+    async def _teach(self, recollection: Recollection, intent: commands.TeachFact) -> AnswerPlan:
         named = set(places_named(intent.words, self._places.vocabulary))
         facts, pose = self._loop.book.facts, self._loop.book.pose
         room = facts.room_at(pose.x_m, pose.y_m) if intent.here and pose is not None else None
@@ -244,12 +239,14 @@ class FactCommands:
             return ()
         query = MemoryQuery(words=thing, kinds=(FACT,), limit=MOST_FACTS)
         found = await recollection.find(query)
-        older = tuple(m for m in found if m.id != kept.id and name_subject(m.words) == thing)
+        older = tuple(
+            m for m in found if m.id != kept.id and commands.name_subject(m.words) == thing
+        )
         for memo in older:
             await recollection.forget(memo.id)
         return older
 
-    async def _forget(self, recollection: Recollection, intent: ForgetFacts) -> AnswerPlan:
+    async def _forget(self, recollection: Recollection, intent: commands.ForgetFacts) -> AnswerPlan:
         kinds = ((FACT,) if intent.told else ()) + ((THING, PERSON) if intent.seen else ())
         if not intent.about:
             count = await recollection.forget_all(kinds)

@@ -9,25 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
+from planner.language import commands
 from planner.language.catalogue import join, message, say
-from planner.language.commands import (
-    BatteryCommand,
-    CancelCommand,
-    Doing,
-    Faster,
-    Forget,
-    ForgetFacts,
-    HereCommand,
-    Intent,
-    KeepSkill,
-    OutcomeCommand,
-    PauseCommand,
-    Remember,
-    Replace,
-    ResumeCommand,
-    Slower,
-    TeachFact,
-)
 from planner.language.plan_words import tell_steps
 from planner.language.readers import BY_THE_PLANNER, readings
 from planner.language.reading import CommandReading, OrdersReading
@@ -131,7 +114,7 @@ class PlannerCommands:
             return (
                 None if self.desk is None else await self.desk.take(reading.command, own, mission)
             )
-        if isinstance(reading.intent, Replace):
+        if isinstance(reading.intent, commands.Replace):
             rest = reading.intent.rest
             return await self._brain(replace(ask, text=rest, order="", exchanges=()))
         if mission.steps:
@@ -167,31 +150,31 @@ class PlannerCommands:
         """Return where everything stands."""
         return self._loop.book
 
-    async def carry_out(self, intent: Intent, mission: Mission) -> AnswerPlan | Refuse:
+    async def carry_out(self, intent: commands.Intent, mission: Mission) -> AnswerPlan | Refuse:
         """Do it and say how it went."""
         book = self._loop.book
         match intent:
-            case Remember() | Forget() | KeepSkill():
+            case commands.Remember() | commands.Forget() | commands.KeepSkill():
                 return await self._learn(intent, mission)
-            case TeachFact() | ForgetFacts():
+            case commands.TeachFact() | commands.ForgetFacts():
                 return await self.fact_commands.carry_out(intent)
-            case HereCommand(name):
+            case commands.HereCommand(name):
                 return await self._hint(name)
-            case PauseCommand():
+            case commands.PauseCommand():
                 return self._command_goal("pause", events.Pause, goal_to_pause(book, mission.id))
-            case CancelCommand():
+            case commands.CancelCommand():
                 return self._command_goal("cancel", events.Cancel, *goals_to_end(book, mission))
-            case ResumeCommand():
+            case commands.ResumeCommand():
                 return self._command_goal("resume", events.Resume, goal_to_resume(book, mission.id))
-            case Doing():
+            case commands.Doing():
                 return AnswerPlan(text=doing(book, self._loop.status_age_s, mission.id))
-            case OutcomeCommand():
+            case commands.OutcomeCommand():
                 told = tell_outcome(book, mission.id)
                 return AnswerPlan(text=told or doing(book, self._loop.status_age_s, mission.id))
-            case BatteryCommand():
+            case commands.BatteryCommand():
                 return AnswerPlan(text=tell_battery(book, self._loop.status_age_s))
-            case Slower() | Faster():
-                return self._change_speed(slower=isinstance(intent, Slower))
+            case commands.Slower() | commands.Faster():
+                return self._change_speed(slower=isinstance(intent, commands.Slower))
             case _:  # where it is; nothing else comes here
                 return AnswerPlan(text=tell_position(book, self._loop.status_age_s))
 
@@ -241,15 +224,15 @@ class PlannerCommands:
         return AnswerPlan(text=say("hint.accepted"))
 
     async def _learn(
-        self, intent: Remember | Forget | KeepSkill, mission: Mission
+        self, intent: commands.Remember | commands.Forget | commands.KeepSkill, mission: Mission
     ) -> AnswerPlan | Refuse:
         """Keep a place or a skill under a name, or forget a place."""
         match intent:
-            case Remember(name):
+            case commands.Remember(name):
                 return await self._remember(name)
-            case Forget(name):
+            case commands.Forget(name):
                 return await self._forget(name)
-            case KeepSkill(name):
+            case commands.KeepSkill(name):
                 return await self._keep_skill(name, mission)
 
     async def _remember(self, name: str) -> AnswerPlan | Refuse:
@@ -310,11 +293,11 @@ class _WordsOf:
         asked = None if self._mission.has_begun else parse(self._mission.order_text).intent
         return asked if isinstance(asked, OrderCommand) else None
 
-    def correct_fact(self, said: SaidSentence) -> TeachFact | None:
+    def correct_fact(self, said: SaidSentence) -> commands.TeachFact | None:
         facts, mission = self._planner.fact_commands, self._mission
         return facts.read_correction(mission, said.intent) if self._is_first else None
 
-    def tell_fact(self, said: SaidSentence) -> TeachFact | None:
+    def tell_fact(self, said: SaidSentence) -> commands.TeachFact | None:
         asked = not self._is_first or self._planner.fact_commands.answers_question(self._mission)
         return None if asked else said.statement
 

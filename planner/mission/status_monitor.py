@@ -6,17 +6,7 @@ nothing. The order is the law: what a person or a fault demands comes before any
 
 from __future__ import annotations
 
-from planner.bridge_client.bridge_status import (
-    GATES,
-    SILENT_SECTOR,
-    amount_done,
-    cannot_move,
-    driven_m,
-    holding_rows,
-    refused_grant,
-    shows,
-    standing,
-)
+from planner.bridge_client import bridge_status
 from planner.mission import legs
 from planner.mission.activity import (
     AskingImage,
@@ -66,7 +56,7 @@ def on_status(turn: Transaction, status: Status, off_path: bool, left_m: float |
         hold_queue(turn)
     if legs.hand_steers(turn, status):
         legs.forget_beginnings(turn)
-    elif standing(status):
+    elif bridge_status.standing(status):
         legs.settle_amounts(turn, status.base_in_map)
     if turn.running is None:
         return
@@ -96,15 +86,15 @@ def _measure(
         return
     turning = mission.steps[mission.step].kind == "turn"
     turn.change(
-        metres=activity.metres + driven_m(before, status),
-        amount=activity.amount + amount_done(before, status, turning=turning),
+        metres=activity.metres + bridge_status.driven_m(before, status),
+        amount=activity.amount + bridge_status.amount_done(before, status, turning=turning),
     )
     if not isinstance(activity, Driving):
         return
     limited, moving_s = activity.limited, activity.moving_s
     if status.leg is not None and status.leg.following and activity.leg == status.leg.leg:
         limited = {**limited, status.limits.by: limited.get(status.limits.by, 0) + 1}
-        if not (status.blocked or holding_rows(status)):
+        if not (status.blocked or bridge_status.holding_rows(status)):
             moving_s += since_s
     turn.change(limited=limited, moving_s=moving_s, left_m=left_m)
 
@@ -121,7 +111,7 @@ def _interrupt(turn: Transaction, status: Status, silent_s: float) -> bool:
     if silent_s > SILENCE_S:
         pause_running(turn, fault("BRAIN_GONE"))
         return True
-    cause = cannot_move(status)
+    cause = bridge_status.cannot_move(status)
     if cause is not None:
         pause_running(turn, cause)
         return True
@@ -132,22 +122,22 @@ def _fault_reason(status: Status) -> str:
     """Name what holds: a protective stop by its own name, anything else by its row."""
     if status.mode is Mode.ESTOPPED:
         return PauseReason.ESTOP.value
-    rows = holding_rows(status) or status.rows
+    rows = bridge_status.holding_rows(status) or status.rows
     return fault(max(rows, key=lambda r: r.for_s).row if rows else "HELD")
 
 
 def _end_spent(turn: Transaction, mission: Mission, status: Status) -> bool:
     # Rows outlive the mission they were about; only a row seen on our own leg is ours.
     ours = status.leg is not None and status.leg.mission == mission.grant_name
-    code = refused_grant(status, mission.grant_name) if status.grant is None else None
+    code = bridge_status.refused_grant(status, mission.grant_name) if status.grant is None else None
     if not (status.operator_metres > 0.0 and status.operator_seconds > 0.0):
-        if code == "operator_budget" or (ours and shows(status, "BUDGET")):
+        if code == "operator_budget" or (ours and bridge_status.shows(status, "BUDGET")):
             pause_running(turn, PauseReason.BUDGET.value)  # goes on once a person has acted
             return True
-    elif code == "budget" or (ours and shows(status, "BUDGET")):
+    elif code == "budget" or (ours and bridge_status.shows(status, "BUDGET")):
         end_running(turn, GoalFact.STEP_FAILS, Code.OUT_OF_BUDGET, "budget")
         return True
-    if ours and shows(status, "STUCK"):
+    if ours and bridge_status.shows(status, "STUCK"):
         end_running(turn, GoalFact.STEP_FAILS, Code.FAULT, "stuck", row="STUCK")
         return True
     return False
@@ -157,13 +147,13 @@ def _held_too_long(turn: Transaction, status: Status) -> bool:
     activity = turn.book.activity
     if not isinstance(activity, (Driving, Retrying)):
         return False
-    rows = holding_rows(status)
+    rows = bridge_status.holding_rows(status)
     if not (rows or status.blocked):
         turn.change(row_since_s=None)
         return False
     since_s = activity.row_since_s if activity.row_since_s is not None else turn.now_s
     turn.change(row_since_s=since_s)
-    others = [r for r in rows if r.row not in GATES]
+    others = [r for r in rows if r.row not in bridge_status.GATES]
     spare = isinstance(activity, Driving) and activity.act.otherwise is not None
     if spare and not others and turn.now_s - since_s > PATIENCE_S:
         fail_step(turn, Fail(Code.BLOCKED, "blocked"))  # the step goes on without this leg
@@ -181,7 +171,9 @@ def _progress(turn: Transaction, status: Status, off_path: bool) -> None:
     match turn.book.activity:
         case Observing() | AskingImage():
             on_standing(turn)
-        case Retrying(retry_s=retry_s) if turn.now_s >= retry_s and not shows(status, "POSE_JUMP"):
+        case Retrying(retry_s=retry_s) if turn.now_s >= retry_s and not bridge_status.shows(
+            status, "POSE_JUMP"
+        ):
             begin_step(turn)
         case Driving() as leg:
             _drive_on(turn, leg, status, off_path)
@@ -193,7 +185,7 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
         return
     if (leg.manoeuvre is None and on_arrival(turn)) or _off_limits(turn, leg):
         return
-    if shows(status, "POSE_JUMP"):
+    if bridge_status.shows(status, "POSE_JUMP"):
         if not leg.jumped:
             jump = {"jumped": True, "leg": None, "ticket": None, "manoeuvre": None}
             turn.change(**jump, route_when_standing=True)
@@ -203,7 +195,7 @@ def _drive_on(turn: Transaction, leg: Driving, status: Status, off_path: bool) -
     elif off_path and leg.leg is not None:
         legs.abandon_route(turn)
     elif leg.route_when_standing:
-        if standing(status) and not shows(status, "POSE_JUMP"):
+        if bridge_status.standing(status) and not bridge_status.shows(status, "POSE_JUMP"):
             legs.ask_route(turn)
     elif leg.retry_s is not None and turn.now_s >= leg.retry_s and leg.ticket is None:
         climbed = turn.at_work.recovery.ladders > 0
@@ -232,7 +224,7 @@ def _watch_leg(turn: Transaction, status: Status, driving: Driving) -> None:
     leg = legs.told_of_leg(turn)
     refused = leg is not None and leg.refusal is not None
     follows = leg is not None and leg.following
-    quiet = not (follows or status.blocked or holding_rows(status))
+    quiet = not (follows or status.blocked or bridge_status.holding_rows(status))
     blocked_s = _since(driving.blocked_since_s, status.blocked, turn.now_s)
     refused_s = _since(driving.refused_since_s, refused, turn.now_s)
     idle_s = _since(driving.idle_since_s, quiet, turn.now_s)
@@ -255,8 +247,8 @@ def _recover_or_go_on(turn: Transaction, status: Status) -> None:
     leg = turn.leg
     if leg.ticket is not None:
         return
-    rows = {row.row for row in holding_rows(status)} - GATES
-    if rows == {SILENT_SECTOR}:
+    rows = {row.row for row in bridge_status.holding_rows(status)} - bridge_status.GATES
+    if rows == {bridge_status.SILENT_SECTOR}:
         leave_silence(turn, leg, status)
     if rows:
         return
