@@ -169,7 +169,8 @@ class GoalHistory:
 
     async def find_key(self, key: str) -> GoalKey | None:
         """Return the request that came with a key, however long ago; None: it is a new one."""
-        return await asyncio.to_thread(self._find_key, key)
+        found = await asyncio.to_thread(self._read, _KEY, key=key)
+        return GoalKey(*found[0]) if found else None
 
     def _find(self, query: HistoryQuery) -> HistoryPage:
         where, values = _conditions(query)
@@ -190,10 +191,6 @@ class GoalHistory:
         found = self._read(_CHANGED, cursor=cursor, limit=limit)
         missions = tuple(read_mission(record) for record, _ in found)
         return ChangedGoals(missions, found[-1]["seq"] if found else cursor)
-
-    def _find_key(self, key: str) -> GoalKey | None:
-        found = self._read(_KEY, key=key)
-        return GoalKey(*found[0]) if found else None
 
     def _story(self, goal_id: str) -> tuple[Mission, GoalStory]:
         found = self._read(_RECORD, goal=goal_id)

@@ -172,7 +172,7 @@ def take_answer(turn: Transaction, mission: Mission, text: str) -> None:
     if agreed and isinstance(state, BoundedSearchState) and state.offered:
         mission = _search_on(turn, mission, state)
     queue.release_answered(turn)
-    if mission.current_step is not None and mission.current_step.kind == "ask":
+    if mission.asks:
         act = ask(scene_of(turn, mission))
         if isinstance(act, Fail) and act.said is not None:
             queue.decline(turn, mission, act.said)

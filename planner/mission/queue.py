@@ -264,11 +264,7 @@ def decline(turn: Transaction, mission: Mission, said: Bilingual) -> None:
     """End a goal where the robot stands; a question that was answered is over, the rest skipped."""
     if turn.book.running == mission.id:
         mission = settle_activity(turn)
-    if (
-        mission.current_step is not None
-        and mission.current_step.kind == "ask"
-        and mission.current_step.answer is not None
-    ):
+    if mission.asks and mission.steps[mission.step].answer is not None:
         mission = note_step(turn, mission, state=StepState.SUCCEEDED)
     outcome = ended_outcome(turn, mission, Code.DECLINED, said)
     finish(turn, mission, PersonCause.DECLINES, outcome, Code.DECLINED.value)

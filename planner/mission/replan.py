@@ -60,7 +60,8 @@ def rethought(turn: Transaction, mission: Mission, event: Planned) -> None:
         mission = turn.put(mission, brain=event.brain)
     plan = event.plan
     steps = _steps(plan, mission)
-    if _is_answer(mission) and _of_no_use(turn, mission, event, steps):
+    # Of a question its answer is thought about that was neither yes nor no.
+    if mission.asks and _of_no_use(turn, mission, event, steps):
         carry_out(turn, mission, ask_again(scene_of(turn, mission)))
         return
     if steps is None:
@@ -84,11 +85,6 @@ def _steps(plan: Plan | None, mission: Mission) -> tuple[StepRecord, ...] | None
             StepRecord(kind="decide", text=mission.words[:500]),
         )
     return None
-
-
-def _is_answer(mission: Mission) -> bool:
-    """Return whether the brain thinks about an answer that was neither yes nor no."""
-    return mission.current_step is not None and mission.current_step.kind == "ask"
 
 
 def _of_no_use(
@@ -178,7 +174,7 @@ def _first_question(
     if shall_i is not None:
         return shall_i, UNASKED
     question = needs_yes(facts, mission, steps)
-    reason = "new_plan" if _is_answer(mission) else "new_place"
+    reason = "new_plan" if mission.asks else "new_place"
     return question, None if question is None else reason
 
 
@@ -195,7 +191,7 @@ def needs_yes(facts: SiteView, mission: Mission, steps: tuple[StepRecord, ...]) 
     choose another destination by itself, nor roam for what was not asked for. After an answer that
     was neither yes nor no, whatever moves needs a yes of its own.
     """
-    if mission.current_step is not None and mission.current_step.kind == "ask":
+    if mission.asks:
         deed = first_deed(facts, steps)
         why = None if deed is None else say("confirmation.would", deed=deed)
     elif mission.failure is None:

@@ -211,6 +211,11 @@ class Mission(GivenOrder, Consent, Planning, Progress):
         return self.steps[self.step] if self.step < len(self.steps) else None
 
     @property
+    def asks(self) -> bool:
+        """Tell whether the current step is a question to a person; it may be answered already."""
+        return self.current_step is not None and self.current_step.kind == "ask"
+
+    @property
     def steps_ahead(self) -> tuple[StepRecord, ...]:
         """Return the steps that may still be done: those of a round that may come again, too."""
         if self.step >= len(self.steps):
