@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import join, list_names, message, say
 from planner.language.formatting import angle, definite, metres
 from planner.language.object_names import tell_words
-from planner.plan import Bilingual, Code, StepState, say_same
+from planner.plan import Bilingual, Code, StepRecord, StepState, say_same
 from planner.plan.plan_walk import is_left_open
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from planner.mission.state import Mission, Planning, Progress
-    from planner.plan import StepRecord
     from planner.site.site_view import SiteView
 
 DRIVEN = frozenset({"go_to", "go_to_pose", "return_home", "come_back"})

@@ -13,16 +13,13 @@ from typing import TYPE_CHECKING
 from planner.language.catalogue import message
 from planner.language.commands import BatteryCommand, Doing, OutcomeCommand, WhereCommand
 from planner.mission.awaited_word import AwaitedWord, wait_of
-from planner.mission.errors import NotOwnGoal, PersonMissing, UnknownGoal
-from planner.mission.state import AGENT_SOURCE
+from planner.mission.errors import MissionError, NotOwnGoal, PersonMissing, UnknownGoal
+from planner.mission.state import AGENT_SOURCE, MissionState
 from planner.mission.transitions import refusal
-from planner.plan import STEPLESS, Clarify, Code, Option, PlanRole, Refuse, StepPlan
+from planner.plan import STEPLESS, Clarify, Code, Option, Plan, PlanRole, Refuse, StepPlan
 
 if TYPE_CHECKING:
-    from planner.mission.errors import MissionError
     from planner.mission.events import Command, Planned
-    from planner.mission.state import MissionState
-    from planner.plan import Plan
 
 MOST_OPEN = 8
 """Goals of all agents that have not ended: a program in a loop leaves room for people."""

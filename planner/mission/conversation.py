@@ -22,13 +22,12 @@ from planner.mission.account import name_place
 from planner.mission.awaited_word import list_waiting
 from planner.mission.effects import AskBrain
 from planner.mission.outcomes import find_place_near, spot_at
-from planner.mission.state import Consent, Mission, Planning
+from planner.mission.state import Consent, GivenOrder, Mission, MissionState, Planning
 from planner.plan import CONTROL, Bilingual, Code, GoalState, StepRecord, StepState, places_of
 from planner.plan.plan_walk import NOT_CHOSEN
 from planner.site.site_view import SiteView
 
 if TYPE_CHECKING:
-    from planner.mission.state import GivenOrder, MissionState
     from planner.mission.transaction import Transaction
 
 

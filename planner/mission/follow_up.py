@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from planner.language.changes.antecedents import complete_person, fits, thing_of
 from planner.language.changes.reader import read_changes
-from planner.language.commands import HereCommand, Replace, intent_of
+from planner.language.commands import HereCommand, Intent, Replace, intent_of
 from planner.language.folding import has_chinese
 from planner.language.motion_guard.clause_moods import ClauseMood
 from planner.language.motion_guard.clauses import read_clauses
@@ -28,7 +28,7 @@ from planner.language.schedule import OrderCommand
 from planner.language.stop import is_stop
 from planner.mission.open_questions import find_choice, find_offered_plan
 from planner.mission.outcomes import moves
-from planner.mission.state import ORDER_SOURCE, GivenOrder, goal_to_end
+from planner.mission.state import ORDER_SOURCE, GivenOrder, Mission, MissionState, goal_to_end
 from planner.plan import (
     Change,
     ChangedOrder,
@@ -44,9 +44,7 @@ from planner.plan import (
 from planner.skills.viewpoints import room_of
 
 if TYPE_CHECKING:
-    from planner.language.commands import Intent
     from planner.language.sentence import SaidSentence
-    from planner.mission.state import Mission, MissionState
 
 
 _THERE = re.compile(r"\bthere\b|那[里儿边]")

@@ -19,23 +19,19 @@ from planner.mission.agents import is_agents
 from planner.mission.events import Planned, Submitted
 from planner.mission.outcomes import plain_outcome
 from planner.mission.reception import receive_points
-from planner.mission.tasks import RouteService
+from planner.mission.tasks import RouteService, Think
 from planner.navigation import RouteFailure, RouteRequest
-from planner.plan import GIVEN, Code, GoToPose, Language, Outcome, StepPlan, check_plan
-from planner.site import PlaceRefusal
+from planner.plan import GIVEN, Code, GoToPose, Language, Outcome, Step, StepPlan, check_plan
+from planner.site import KnownPlaces, PlaceRefusal, Site
 from planner.site.polygon import contains
 from planner.skills.drive_to_place import SEES_FROM_M
-from wire import Pose2, Status
+from wire import OpRequest, Pose2, Status
 
 if TYPE_CHECKING:
     from planner.mission.clocks import Clocks
     from planner.mission.effects import AskBrain
     from planner.mission.loop import Loop
     from planner.mission.request_keys import Repeats
-    from planner.mission.tasks import Think
-    from planner.plan import Step
-    from planner.site import KnownPlaces, Site
-    from wire import OpRequest
 
 
 _BY_THE_WAY = {

@@ -20,14 +20,12 @@ from pydantic import ValidationError
 
 from planner.mission.errors import UnknownGoal
 from planner.mission.journal_records import read_mission
-from planner.mission.state import GoalKey
+from planner.mission.state import GoalKey, Mission
 from planner.plan import ENDED, Frozen, GoalState, Language
 from processes.parent_death import child_command
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from planner.mission.state import Mission
 
 
 FILE = "missions.db"

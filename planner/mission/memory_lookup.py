@@ -19,23 +19,20 @@ from planner.language.motion_guard.mentioned_names import places_named
 from planner.language.object_names import name_object
 from planner.language.recall import read_recall
 from planner.language.sentence import parse
-from planner.memory import FACT, KINDS, PERSON, THING, FactRefusal, MemoryQuery
-from planner.mission.events import Recalled
+from planner.memory import FACT, KINDS, PERSON, THING, FactRefusal, Memo, MemoryQuery, Recollection
+from planner.mission.events import Command, Recalled
 from planner.mission.recall_text import bounds_of, find_deeds, tell_deeds, tell_memos
-from planner.plan import AnswerPlan, Code, GoalState, Refuse, say_same
+from planner.plan import AnswerPlan, Code, GoalState, Refuse, Vocabulary, say_same
 from planner.skills.viewpoints import room_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from planner.language.commands import Intent
-    from planner.memory import Memo, Recollection
     from planner.mission.effects import AskBrain, AskMemory
     from planner.mission.errors import MissionError
-    from planner.mission.events import Command
     from planner.mission.loop import Loop
     from planner.mission.state import GivenOrder, Mission, MissionState
-    from planner.plan import Vocabulary
     from planner.site.known_places import KnownPlaces
 
 

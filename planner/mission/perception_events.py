@@ -52,7 +52,6 @@ from wire import wrap
 if TYPE_CHECKING:
     from planner.mission.events import Recalled, ToolAnswered
     from planner.mission.state import Mission
-    from planner.mission.transaction import Transaction
 
 
 SETTLE_S = 0.15

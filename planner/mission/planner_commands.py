@@ -19,30 +19,25 @@ from planner.language.sentence import SaidSentence, parse
 from planner.mission import events
 from planner.mission.agents import MAY_ASK, NEEDED, hold_to_agent, is_agents
 from planner.mission.effects import AskBrain
-from planner.mission.events import Planned
+from planner.mission.events import Command, Planned, Submitted
 from planner.mission.follow_up import last_orders
-from planner.mission.memory_lookup import SPOKEN_BY, FactCommands
+from planner.mission.memory_lookup import SPOKEN_BY, FactCommands, GoalBook, MemoryLookup
 from planner.mission.plan_roles import goals_to_end
 from planner.mission.reception import goal_to_pause, goal_to_resume
 from planner.mission.spoken_status import doing, tell_battery, tell_outcome, tell_position
-from planner.mission.standing_goals import hold_to_order, is_of_order, take_back_offers
+from planner.mission.standing_goals import OrderDesk, hold_to_order, is_of_order, take_back_offers
 from planner.plan import AnswerPlan, Bilingual, Code, Refuse, Say, StepPlan, steps_of
 from planner.site import PlaceRefusal
-from planner.site.known_places import Lesson
-from planner.site.places import normalise
+from planner.site.known_places import KnownPlaces, Lesson
+from planner.site.places import Place, normalise
 from planner.site.pose_hint import hint_in
 from planner.skill_files.problems import SkillProblem
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from planner.mission.events import Command, Submitted
-    from planner.mission.memory_lookup import GoalBook, MemoryLookup
-    from planner.mission.standing_goals import OrderDesk
     from planner.mission.state import Mission, MissionState
     from planner.mission.tasks import Think
-    from planner.site.known_places import KnownPlaces
-    from planner.site.places import Place
     from planner.skill_files.keep import SkillKeeper
     from wire import HintVerdict, PoseHint
 

@@ -11,15 +11,13 @@ from typing import TYPE_CHECKING
 
 from planner.language.catalogue import join, message, say
 from planner.language.object_names import name_object, tell_words
-from planner.memory import FACT, PERSON
-from planner.plan import Code, GoalState, StepState, say_same
+from planner.memory import FACT, PERSON, Memo
+from planner.plan import Bilingual, Code, GoalState, Span, StepRecord, StepState, say_same
 from planner.skills.result_text import name_one
 
 if TYPE_CHECKING:
-    from planner.memory import Memo
     from planner.mission.effects import AskMemory
     from planner.mission.state import Mission, MissionState
-    from planner.plan import Bilingual, Span, StepRecord
     from planner.site.site_view import SiteView
 
 

@@ -10,14 +10,13 @@ import json
 from typing import TYPE_CHECKING
 
 from planner.mission.errors import JournalDown
-from planner.mission.events import Cancel
+from planner.mission.events import Cancel, Submitted
 from planner.mission.journal import MAX_KEYS
 from planner.mission.state import GoalKey
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable, Iterable
 
-    from planner.mission.events import Submitted
     from planner.mission.loop import Loop
 
 

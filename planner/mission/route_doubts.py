@@ -18,7 +18,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RouteDoubt, RoutePurpose
-from planner.mission.events import ClosingIn, Oncoming, RouteDoubted
+from planner.mission.events import ClosingIn, Oncoming, Routed, RouteDoubted
 from planner.mission.legs import ask_route, new_leg
 from planner.mission.recovery import LADDER, Recovery, begin_ladder, note_obstruction
 from planner.navigation.obstruction import Obstruction
@@ -27,7 +27,6 @@ from planner.skills import Way
 from wire import Pose2
 
 if TYPE_CHECKING:
-    from planner.mission.events import Routed
     from planner.mission.state import Mission, MissionState
     from planner.mission.transaction import Transaction
 

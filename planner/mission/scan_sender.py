@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING, Protocol
 
 from planner.mission.activity import Driving
 from planner.mission.events import ClosingIn, Oncoming, RouteDoubted, Surveyed
-from planner.navigation import RouteFailure, ScanObservation
+from planner.navigation import Mover, ObstacleReport, RouteFailure, ScanObservation
 from planner.navigation.obstruction import ROUND_M, find_narrow, find_obstruction, is_seen_open
 from planner.navigation.oncoming import find_oncoming, is_closing_in
 from planner.perception.pose_buffer import Poses
-from wire import Pose2
+from wire import Pose2, RobotDescription, Scan
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from planner.bridge_client import Link
     from planner.mission.engine import Leg, WayAhead
     from planner.mission.state import MissionState
-    from planner.navigation import Mover, ObstacleReport
-    from wire import RobotDescription, Scan
 
 
 log = logging.getLogger(__name__)

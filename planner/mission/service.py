@@ -20,7 +20,7 @@ from planner.mission.agents import is_agents, refuse_command
 from planner.mission.api_view import goal_of, tell_book
 from planner.mission.clocks import Clocks
 from planner.mission.effects import AskBrain
-from planner.mission.engine import Engine
+from planner.mission.engine import Engine, Leg
 from planner.mission.errors import NothingToResume, UnknownGoal
 from planner.mission.given_points import RobotSurvey, StepGoals
 from planner.mission.journal_sync import Disk
@@ -49,7 +49,6 @@ from wire import OpRequest, RobotDescription
 if TYPE_CHECKING:
     from planner.language.reading import ChangeReading
     from planner.memory import Recollection
-    from planner.mission.engine import Leg
     from planner.mission.event_hub import Subscription
 
 

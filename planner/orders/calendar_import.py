@@ -14,7 +14,7 @@ from planner.orders.calendar_orders import read_orders
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import NewOrder, OrderQuestion, tell_question
 from planner.orders.rule import settle, upcoming
-from planner.plan.timing import EventRule
+from planner.plan.timing import EventRule, Rule
 
 if TYPE_CHECKING:
     from datetime import tzinfo
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from planner.orders.keeper import OrderKeeper
     from planner.orders.order import StandingOrder
     from planner.plan import StepRecord
-    from planner.plan.timing import Rule
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from planner.language.catalogue import message, say
-from planner.plan import Code, Refuse
-
-if TYPE_CHECKING:
-    from planner.plan import Bilingual
+from planner.plan import Bilingual, Code, Refuse
 
 
 class OrderRefusal(Exception):

@@ -15,11 +15,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from planner.mission.errors import MissionError
-from planner.mission.state import ORDER_SOURCE
+from planner.mission.state import ORDER_SOURCE, Mission, MissionState
 from planner.orders import world
 from planner.orders.interfaces import GoalGiver, OrderClocks
 from planner.orders.ledger import End, FiringLedger, LedgerEntry
-from planner.orders.notifier import OrderAnnouncer
+from planner.orders.notifier import Notifier, OrderAnnouncer
 from planner.orders.order import Firing, FiringState, StandingOrder, key_of, new_nonce
 from planner.orders.scheduler import (
     INTERRUPTED,
@@ -34,17 +34,14 @@ from planner.orders.scheduler import (
     tick,
 )
 from planner.orders.world import Watch, notice
-from planner.plan import Bilingual, GoalState
+from planner.plan import Bilingual, GoalState, QuietHours
 from planner.state_database import StateUnavailable
 
 if TYPE_CHECKING:
     from datetime import tzinfo
 
-    from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
-    from planner.orders.notifier import Notifier
     from planner.orders.store import OrderStore
-    from planner.plan import QuietHours
 
 log = logging.getLogger(__name__)
 

@@ -7,10 +7,9 @@ a bare "nine"); a change that a rule can't take is refused, and nothing of it is
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import datetime
-from typing import TYPE_CHECKING
+from datetime import datetime, tzinfo
 
-from planner.language.schedule import Delay, LeaveOutDays, Retime
+from planner.language.schedule import Delay, LeaveOutDays, OrderChange, Retime
 from planner.language.schedule.parts import (
     USUAL_HOUR,
     After,
@@ -19,6 +18,7 @@ from planner.language.schedule.parts import (
     Interval,
     MonthDay,
     OnceDay,
+    Part,
     TimeOfDay,
     WeekDays,
     combine,
@@ -28,14 +28,7 @@ from planner.language.schedule.parts import (
 )
 from planner.orders.errors import OrderRefusal
 from planner.orders.rule import judge, settle
-from planner.plan.timing import AtRule, CronRule, DayTime, EventRule, EveryRule, InRule
-
-if TYPE_CHECKING:
-    from datetime import tzinfo
-
-    from planner.language.schedule import OrderChange
-    from planner.language.schedule.parts import Part
-    from planner.plan.timing import Rule
+from planner.plan.timing import AtRule, CronRule, DayTime, EventRule, EveryRule, InRule, Rule
 
 DAY_MINUTES = 1440
 

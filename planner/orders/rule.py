@@ -10,7 +10,7 @@ out (iCalendar's EXDATE) are neither due nor missed, and no others.
 
 from __future__ import annotations
 
-from datetime import UTC, date, datetime, time, timedelta
+from datetime import UTC, date, datetime, time, timedelta, tzinfo
 from itertools import pairwise
 from math import ceil, isfinite
 from typing import TYPE_CHECKING
@@ -32,7 +32,6 @@ from planner.plan.timing import (
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from datetime import tzinfo
 
     from planner.language.schedule.parts import OnceDay
     from planner.orders.order import StandingOrder

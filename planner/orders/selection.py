@@ -7,7 +7,7 @@ none change nothing.
 from __future__ import annotations
 
 import re
-from datetime import datetime
+from datetime import datetime, tzinfo
 from typing import TYPE_CHECKING
 
 from planner.language.folding import fold, fold_words, has_chinese
@@ -19,7 +19,6 @@ from planner.plan.timing import CronRule
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from datetime import tzinfo
 
     from planner.orders.order import StandingOrder
 

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import datetime, time, timedelta
+from datetime import date, datetime, time, timedelta, tzinfo
 from typing import TYPE_CHECKING
 
 from planner.language.catalogue import build, join, list_names, raw, say, say_or_quote
 from planner.language.plan_words import tell_steps
 from planner.orders.rule import coming_runs, find_day, next_run
 from planner.orders.selection import select
-from planner.plan import CONTROL, Bilingual, Clarify, Code, Option, say_same
+from planner.plan import CONTROL, Bilingual, Clarify, Code, Option, StepRecord, say_same
 from planner.plan.slots import steps_of
-from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule
+from planner.plan.timing import AtRule, CronRule, EventRule, EveryRule, Rule
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-    from datetime import date, tzinfo
 
     from planner.language.schedule import ListOrders
     from planner.language.schedule.parts import OnceDay
     from planner.orders.order import Firing, StandingOrder
     from planner.orders.scheduler import OrderBook
-    from planner.plan import StepRecord
-    from planner.plan.timing import Rule
     from planner.site.site_view import SiteView
 
 MOST_TOLD = 8

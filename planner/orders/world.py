@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from planner.bridge_client.bridge_status import cannot_move, standing
 from planner.mission.standing_goals import is_of_order
-from planner.mission.state import ORDER_SOURCE
+from planner.mission.state import ORDER_SOURCE, Mission, MissionState
 from planner.orders.scheduler import BRIDGE_SILENT
 from planner.plan import GoalState, PauseReason
 from planner.plan.timing import WorldEvent
@@ -23,7 +23,6 @@ from planner.plan.timing import WorldEvent
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from planner.mission.state import Mission, MissionState
     from planner.navigation import ObstacleReport
 
 AWAY_S = 120.0

@@ -11,17 +11,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from planner.language.catalogue import join, say
-from planner.plan import StepRole
+from planner.plan import Bilingual, StepRole
 from planner.skills import search
-from planner.skills.actions import Question
+from planner.skills.actions import Question, Scene
 from planner.skills.result_text import list_rooms, looked_in
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from planner.perception.snapshot import Thing
-    from planner.plan import Bilingual
-    from planner.skills.actions import Scene
 
 
 def tell_looked(scene: Scene[Any], alike: Sequence[Thing] = (), *, rooms: bool = True) -> Bilingual:

@@ -38,11 +38,10 @@ from planner.skills.scene_answers import SceneAnswer, answer, tell_unknown
 from planner.skills.search import begin, spots
 from planner.skills.skill_state import LookStage, LookState
 from planner.skills.viewpoints import HERE, Viewpoint
-from wire import wrap
+from wire import Pose2, wrap
 
 if TYPE_CHECKING:
     from planner.skills.perception import ImageAnswer
-    from wire import Pose2
 
 
 NO_DETECTOR = say("look.no_detector")

@@ -38,11 +38,10 @@ from planner.skills.result_text import NOWHERE, room_name
 from planner.skills.search_bounds import bound_pictures
 from planner.skills.skill_state import DirectionSeen, ModelSearchState
 from planner.skills.viewpoints import HERE, Viewpoint
-from wire import wrap
+from wire import Pose2, wrap
 
 if TYPE_CHECKING:
     from planner.skills.perception import ImageAnswer
-    from wire import Pose2
 
 Seeking = TypeVar("Seeking", bound=ModelSearchState)
 BELIEVED = 0.5

@@ -14,14 +14,13 @@ from planner.language.questions import split_relation
 from planner.plan import Found, Language
 from planner.skills.perception import WantedObject
 from planner.skills.spatial_relations import stands
-from wire import wrap
+from wire import Pose2, wrap
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from planner.perception.snapshot import Sight, Thing
     from planner.skills.actions import Scene
-    from wire import Pose2
 
 SURE = 0.6
 """Confidence from which a thing is told of."""

@@ -7,10 +7,9 @@ from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
 from planner.language.questions import Relation
-from planner.plan import Means
+from planner.plan import Bilingual, Means
 
 if TYPE_CHECKING:
-    from planner.plan import Bilingual
     from wire import CameraConfig, Pose2
 
 OVERLAP = 0.9

@@ -10,7 +10,7 @@ import asyncio
 import re
 from dataclasses import dataclass, field, replace
 from math import atan2, hypot
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from planner.brain.errors import BrainDown
 from planner.brain.image_questions import ImageDescription, ImageQuestion
@@ -19,7 +19,7 @@ from planner.mission.effects import AskBrain, AskEyes, KeepPicture
 from planner.mission.events import Confirm, Planned, Reply, Sighted
 from planner.mission.perception_requests import EyeDoor
 from planner.mission.state import Mission
-from planner.perception.interfaces import Picture
+from planner.perception.interfaces import Eyes, Picture
 from planner.perception.snapshot import LookSnapshot, Sight, Thing
 from planner.plan import (
     Bilingual,
@@ -34,9 +34,6 @@ from planner.plan import (
 from planner.skills import Eyesight
 from tests.planner.mission.lockstep import Together
 from wire import CameraConfig, Image, ImageHeader, Pose2, wrap
-
-if TYPE_CHECKING:
-    from planner.perception.interfaces import Eyes
 
 CAMERA = CameraConfig()
 EYES = Eyesight(CAMERA, ("cup", "person", "chair", "table"), model=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from planner.bridge_client import Aged
+from planner.bridge_client import Aged, Link
 from planner.mission.engine import Leg, WayAhead
 from planner.mission.events import ClosingIn, Oncoming, RouteDoubted, Surveyed
 from planner.mission.scan_sender import EVERY_S, FRESH_S, PERIOD_S, SIGHT_S, ScanSender, Surveyor
@@ -24,7 +24,6 @@ from wire import Pose2, RobotDescription, Scan
 
 if TYPE_CHECKING:
     from maps.grid import GridMap
-    from planner.bridge_client import Link
     from planner.perception.pose_buffer import Poses
 
 
