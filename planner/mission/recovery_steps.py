@@ -11,29 +11,12 @@ from dataclasses import replace
 from math import cos, sin
 
 from planner.bridge_client.bridge_status import standing
+from planner.mission import recovery
 from planner.mission.account import place_name
 from planner.mission.activity import Driving, LegRoutes, Manoeuvre, RoutePurpose
 from planner.mission.events import Surveyed
 from planner.mission.legs import RETRY_S, ask_route, look_for_room, told_of_leg
 from planner.mission.queue import note_step
-from planner.mission.recovery import (
-    LADDER,
-    MAX_TOLD,
-    TURN_OUT,
-    LadderRung,
-    Recovery,
-    aside_s,
-    begin_ladder,
-    can_give_way,
-    climb_again,
-    is_same,
-    note_obstruction,
-    note_open,
-    rung_after,
-    rung_of,
-    turn_out,
-    wait_s,
-)
 from planner.mission.spoken_status import tell_obstruction
 from planner.mission.state import Mission
 from planner.mission.step_failure import fail_step
@@ -54,13 +37,13 @@ def on_survey(turn: Transaction, survey: Surveyed) -> None:
     now_unix_s = turn.now_unix_s
     for way in record.shut:
         if any(way.obstruction == gone for gone in survey.opened):
-            record = note_open(record, way)
+            record = recovery.note_open(record, way)
     if seen is not None and turn.book.status is not None and turn.book.status.blocked:
         held = record.newest
-        known = held is not None and is_same(held.obstruction, seen)
+        known = held is not None and recovery.is_same(held.obstruction, seen)
         # Once a second is enough: each of these is written to the journal.
         if held is None or not known or now_unix_s - held.seen_unix_s >= 1.0:
-            record = note_obstruction(
+            record = recovery.note_obstruction(
                 *(record, seen, now_unix_s, survey.local_offset_s),
                 moves=survey.moves,
                 radius_m=survey.radius_m,
@@ -80,17 +63,17 @@ def recover(turn: Transaction, leg: Driving, status: Status) -> None:
     mission, pose = turn.at_work, status.base_in_map
     if pose is None:
         return
-    record = begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
+    record = recovery.begin_ladder(mission.recovery, (pose.x_m, pose.y_m))
     if record is not mission.recovery:
         mission = turn.put(mission, recovery=record)
         turn.change(rung_since_s=None)
     since_s = _begin_rung(turn)
-    rung = rung_of(record)
+    rung = recovery.rung_of(record)
     if leg.occupied_since_s is not None:
         look_for_room(turn, mission, leg)
-    elif rung.recovery is not Recovery.WAIT:
+    elif rung.recovery is not recovery.Recovery.WAIT:
         _do_rung(turn, rung, pose)
-    elif turn.now_s - since_s >= wait_s(record):
+    elif turn.now_s - since_s >= recovery.wait_s(record):
         next_rung(turn)
 
 
@@ -101,18 +84,18 @@ def leave_silence(turn: Transaction, leg: Driving, status: Status) -> None:
     and the bridge holds the way again.
     """
     mission, pose = turn.at_work, status.base_in_map
-    record = None if pose is None else turn_out(mission.recovery, (pose.x_m, pose.y_m))
+    record = None if pose is None else recovery.turn_out(mission.recovery, (pose.x_m, pose.y_m))
     if pose is None or record is None:
         return
     mission = turn.put(mission, recovery=record)
-    note_recovery(turn, mission, Recovery.TURN_OUT)
-    _turn_to_look(turn, leg, TURN_OUT, 0, pose.yaw_rad)
+    note_recovery(turn, mission, recovery.Recovery.TURN_OUT)
+    _turn_to_look(turn, leg, recovery.TURN_OUT, 0, pose.yaw_rad)
 
 
 def next_rung(turn: Transaction) -> None:
     """Put the foot on the next rung; it begins once the robot is held."""
     mission, record = turn.at_work, turn.at_work.recovery
-    turn.put(mission, recovery=record.model_copy(update={"rung": rung_after(record)}))
+    turn.put(mission, recovery=record.model_copy(update={"rung": recovery.rung_after(record)}))
     turn.change(rung_since_s=None)
 
 
@@ -122,14 +105,14 @@ def _begin_rung(turn: Transaction) -> float:
     if since_s is not None:
         return since_s
     turn.change(rung_since_s=turn.now_s)
-    note_recovery(turn, mission, rung_of(mission.recovery).recovery)
+    note_recovery(turn, mission, recovery.rung_of(mission.recovery).recovery)
     return turn.now_s
 
 
-def note_recovery(turn: Transaction, mission: Mission, recovery: Recovery) -> Mission:
+def note_recovery(turn: Transaction, mission: Mission, tried: recovery.Recovery) -> Mission:
     """Tell in the step's record what is tried."""
-    told = (*mission.steps[mission.step].recoveries, recovery.value)
-    return note_step(turn, mission, recoveries=told[-MAX_TOLD:])
+    told = (*mission.steps[mission.step].recoveries, tried.value)
+    return note_step(turn, mission, recoveries=told[-recovery.MAX_TOLD :])
 
 
 def climb_on(turn: Transaction) -> None:
@@ -142,26 +125,26 @@ def climb_on(turn: Transaction) -> None:
     if pose is None:
         turn.change(retry_s=turn.now_s + RETRY_S)
         return
-    rung = rung_of(turn.at_work.recovery)
+    rung = recovery.rung_of(turn.at_work.recovery)
     _begin_rung(turn)
-    if rung.recovery is not Recovery.WAIT:
+    if rung.recovery is not recovery.Recovery.WAIT:
         _do_rung(turn, rung, pose)
-    elif rung is LADDER[-2]:
-        _do_rung(turn, LADDER[-1], pose)
+    elif rung is recovery.LADDER[-2]:
+        _do_rung(turn, recovery.LADDER[-1], pose)
     else:
         turn.change(retry_s=turn.now_s + min(RETRY_S, rung.seconds))
 
 
-def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
+def _do_rung(turn: Transaction, rung: recovery.LadderRung, pose: Pose2) -> None:
     mission, leg = turn.at_work, turn.leg
     match rung.recovery:
-        case Recovery.REROUTE | Recovery.OTHER_WAY:
+        case recovery.Recovery.REROUTE | recovery.Recovery.OTHER_WAY:
             ask_route(turn, RoutePurpose.DETOUR)
-        case Recovery.GIVE_WAY:
+        case recovery.Recovery.GIVE_WAY:
             _give_way(turn, mission, leg, rung)
-        case Recovery.LOOK:
+        case recovery.Recovery.LOOK:
             _turn_to_look(turn, leg, rung, 0, pose.yaw_rad)
-        case Recovery.BACK_OFF:
+        case recovery.Recovery.BACK_OFF:
             back = Pose2(
                 pose.x_m - rung.metres * cos(pose.yaw_rad),
                 pose.y_m - rung.metres * sin(pose.yaw_rad),
@@ -174,7 +157,7 @@ def _do_rung(turn: Transaction, rung: LadderRung, pose: Pose2) -> None:
 
 def _give_up(turn: Transaction, mission: Mission, leg: LegRoutes) -> None:
     """Fail the step; before somebody who walked up, only once the ladder was climbed thrice."""
-    again = climb_again(mission.recovery)
+    again = recovery.climb_again(mission.recovery)
     if again is None:
         fail_step(turn, way_shut(turn, mission))
         return
@@ -191,10 +174,10 @@ def skip_rung(turn: Transaction, leg: LegRoutes) -> None:
         next_rung(turn)
 
 
-def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRung) -> None:
+def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: recovery.LadderRung) -> None:
     """Stand aside for somebody who walked up; a thing that never moved is not given way to."""
     record = mission.recovery
-    if not can_give_way(record) or record.newest is None:
+    if not recovery.can_give_way(record) or record.newest is None:
         skip_rung(turn, leg)
         return
     update = {"given_way": record.given_way + 1}
@@ -203,7 +186,7 @@ def _give_way(turn: Transaction, mission: Mission, leg: Driving, rung: LadderRun
 
 
 def _turn_to_look(
-    turn: Transaction, leg: Driving, rung: LadderRung, part: int, from_rad: float
+    turn: Transaction, leg: Driving, rung: recovery.LadderRung, part: int, from_rad: float
 ) -> None:
     here = turn.book.pose
     if here is None:
@@ -215,7 +198,7 @@ def _turn_to_look(
 def _manoeuvre(
     turn: Transaction,
     leg: Driving,
-    rung: LadderRung,
+    rung: recovery.LadderRung,
     goal: Pose2,
     way: Way,
     part: int = 0,
@@ -241,9 +224,9 @@ def watch_manoeuvre(turn: Transaction, leg: Driving, status: Status) -> None:
         return
     is_there = told is not None and told.reached and standing(status)
     reached = is_there and leg.ticket is None
-    aside = own.rung.recovery is Recovery.GIVE_WAY
+    aside = own.rung.recovery is recovery.Recovery.GIVE_WAY
     if reached and aside and not own.part:
-        until_s = turn.now_s + aside_s(turn.at_work.recovery)
+        until_s = turn.now_s + recovery.aside_s(turn.at_work.recovery)
         turn.change(manoeuvre=replace(own, part=1, until_s=until_s))
         return
     if not (turn.now_s >= own.until_s or (reached and not aside)):
@@ -264,7 +247,7 @@ def end_manoeuvre(turn: Transaction, leg: Driving, own: Manoeuvre) -> None:
     record = mission.recovery.model_copy(update={"metres": round(gone_m, 3)})
     turn.put(mission, recovery=record)
     turn.change(manoeuvre=None, leg=None, ticket=None, blocked_since_s=None)
-    if own.rung is TURN_OUT:
+    if own.rung is recovery.TURN_OUT:
         ask_route(turn)
     else:
         climb_on(turn)

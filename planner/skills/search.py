@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from planner.language.color_names import may_be
 from planner.perception.snapshot import Thing
+from planner.skills import search_bounds, viewpoints
 from planner.skills.actions import DriveLeg, Observe, Scene, Way
 from planner.skills.look_around import FACING_RAD, LOOKS, leg_to, look_round, spin
 from planner.skills.object_matching import (
@@ -26,27 +27,11 @@ from planner.skills.object_matching import (
     sure,
     turn_to,
 )
-from planner.skills.search_bounds import (
-    FROM_ROOM_TO_ROOM,
-    ROUND_ABOUT,
-    bound_pictures,
-    bound_search,
-    way_after_m,
-    way_m,
-)
 from planner.skills.skill_state import (
     AimStage,
     ModelSearchState,
     RoomTourState,
     SearchState,
-)
-from planner.skills.viewpoints import (
-    HERE,
-    Viewpoint,
-    in_order,
-    near_spot,
-    room_of,
-    spots_in,
 )
 
 if TYPE_CHECKING:
@@ -104,7 +89,9 @@ def _next(
 
 
 def _reaches(scene: Scene[Any], pose: Pose2, at: tuple[float, float]) -> bool:
-    ahead_m = ROUND_ABOUT * away_m(pose, at) + way_after_m(at, scene.afterwards)
+    ahead_m = search_bounds.ROUND_ABOUT * away_m(pose, at) + search_bounds.way_after_m(
+        at, scene.afterwards
+    )
     return scene.spent_m + ahead_m <= _bounds(scene).end_m
 
 
@@ -133,7 +120,7 @@ def find_spent_budget(scene: Scene[SearchState] | Scene[ModelSearchState]) -> st
 
 
 def _bounds(scene: Scene[Any]) -> SearchBounds:
-    return bound_search(scene.facts, scene.left_m)
+    return search_bounds.bound_search(scene.facts, scene.left_m)
 
 
 def list_unseen(scene: Scene[Any]) -> tuple[str, ...]:
@@ -154,7 +141,9 @@ def ran_out(scene: Scene[Any]) -> bool:
 def may_go_on(scene: Scene[Any]) -> bool:
     """Tell whether nothing but its own bounds ended a search."""
     shown = getattr(scene.state, "shown", 0)
-    return (shown > 0 and shown >= bound_pictures(scene)) or find_spent_budget(scene) is not None
+    return (shown > 0 and shown >= search_bounds.bound_pictures(scene)) or find_spent_budget(
+        scene
+    ) is not None
 
 
 class PlaceFilter:
@@ -163,7 +152,7 @@ class PlaceFilter:
     def __init__(self, scene: Scene[Any]) -> None:
         self._target = scene.facts.targets.get(scene.step.place or "")
         self._facts = scene.facts
-        self._room = room_of(scene.facts, scene.step.place)
+        self._room = viewpoints.room_of(scene.facts, scene.step.place)
 
     def __call__(self, thing: Thing) -> bool:
         if self._target is None:
@@ -174,7 +163,7 @@ class PlaceFilter:
         return away_m(self._target.pose, (thing.x_m, thing.y_m)) <= AWAY
 
 
-def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[Viewpoint, ...]:
+def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[viewpoints.Viewpoint, ...]:
     """Return all spots to look round from, in order.
 
     A room is looked through from all its spots before the next, as long as the metres last for the
@@ -183,32 +172,37 @@ def spots(scene: Scene[RoomTourState], pose: Pose2) -> tuple[Viewpoint, ...]:
     facts, target = scene.facts, scene.facts.targets.get(scene.step.place or "")
     if target is not None and not target.room:
         at = (target.pose.x_m, target.pose.y_m)
-        return (Viewpoint(f"{target.id}/0", room_of(facts, target.id), at),)
+        return (viewpoints.Viewpoint(f"{target.id}/0", viewpoints.room_of(facts, target.id), at),)
     first = scene.state.here or (pose.x_m, pose.y_m)
     room, order = facts.room_at(*first), scene.state.order
     rooms = [facts.targets[r] for r in order if r != room and r in facts.targets]
-    groups: list[tuple[Viewpoint, ...]] = []
+    groups: list[tuple[viewpoints.Viewpoint, ...]] = []
     if room in order:
-        groups.append((Viewpoint(HERE, room, first), *spots_in(facts.targets[room], first)[1:]))
+        groups.append(
+            (
+                viewpoints.Viewpoint(viewpoints.HERE, room, first),
+                *viewpoints.spots_in(facts.targets[room], first)[1:],
+            )
+        )
     elif room is None and target is None:
-        groups.append((Viewpoint(HERE, None, first),))
-    groups += [spots_in(target) for target in rooms]
-    near = [*near_spot(facts.targets[room], first)] if room in order else []
+        groups.append((viewpoints.Viewpoint(viewpoints.HERE, None, first),))
+    groups += [viewpoints.spots_in(target) for target in rooms]
+    near = [*viewpoints.near_spot(facts.targets[room], first)] if room in order else []
     # what lay before the feet comes last: it is seldom there
-    near += [spot for target in rooms for spot in near_spot(target)]
+    near += [spot for target in rooms for spot in viewpoints.near_spot(target)]
     return (*_rooms_first(scene, pose, groups), *near)
 
 
 def _rooms_first(
-    scene: Scene[RoomTourState], pose: Pose2, groups: list[tuple[Viewpoint, ...]]
-) -> list[Viewpoint]:
+    scene: Scene[RoomTourState], pose: Pose2, groups: list[tuple[viewpoints.Viewpoint, ...]]
+) -> list[viewpoints.Viewpoint]:
     """Put off the further spots of rooms where the metres would not last for the other rooms."""
     state, at = scene.state, (pose.x_m, pose.y_m)
     over = (spot for spot in (state.missed, state.spot) if spot is not None)
     done = (*state.spots, *over)  # the spot that is looked round from is about to be
     ahead = tuple(group[0].at for group in groups if group[0].key not in done)
-    now: list[Viewpoint] = []
-    later: list[Viewpoint] = []
+    now: list[viewpoints.Viewpoint] = []
+    later: list[viewpoints.Viewpoint] = []
     for group in groups:
         inside = bool(done) and done[-1] in {spot.key for spot in group}
         if group[0].key not in done:
@@ -222,7 +216,9 @@ def _rooms_first(
 
 def _lasts(scene: Scene[Any], way: tuple[tuple[float, float], ...]) -> bool:
     """Tell whether the metres are likely to last for a way through rooms, and the plan's rest."""
-    ahead_m = FROM_ROOM_TO_ROOM * way_m(way) + way_after_m(way[-1], scene.afterwards)
+    ahead_m = search_bounds.FROM_ROOM_TO_ROOM * search_bounds.way_m(
+        way
+    ) + search_bounds.way_after_m(way[-1], scene.afterwards)
     return scene.spent_m + ahead_m <= _bounds(scene).begin_m
 
 
@@ -243,7 +239,7 @@ def begin(
     here = (round(pose.x_m, 3), round(pose.y_m, 3))
     place = scene.facts.targets.get(scene.step.place or "")
     order = (
-        in_order(scene.facts, pose, known, wanted if first else None)
+        viewpoints.in_order(scene.facts, pose, known, wanted if first else None)
         if place is None
         else (place.id,)
     )

@@ -10,30 +10,9 @@ from hypothesis import strategies as st
 
 from planner.bridge_client.ownership import STAND
 from planner.language.catalogue import message
+from planner.mission import events
 from planner.mission.activity import Driving
 from planner.mission.effects import AskRoute, Journal, SayAloud
-from planner.mission.events import (
-    Cancel,
-    Command,
-    Confirm,
-    Event,
-    Journalled,
-    Move,
-    Pause,
-    Planned,
-    Reply,
-    Restarted,
-    Resume,
-    Routed,
-    RouteDoubted,
-    Seen,
-    Sighted,
-    Stopped,
-    Submitted,
-    Surveyed,
-    Tick,
-    Told,
-)
 from planner.mission.reducer import advance, motion_request
 from planner.mission.state import Mission, MissionState
 from planner.mission.transitions import refusal
@@ -145,7 +124,7 @@ things = st.lists(
 ).map(tuple)
 blind = st.sampled_from([None, None, None, "camera_silent", "no_detector"])
 
-events = st.one_of(
+happenings = st.one_of(
     st.tuples(st.just("sight"), things, blind),
     st.tuples(st.just("sight"), things, blind),
     st.tuples(st.just("told"), ids, st.sampled_from([None, (2.0, 0.0, 0.0)])),
@@ -156,7 +135,11 @@ events = st.one_of(
     st.tuples(st.just("surveyed"), st.sampled_from([2.0, 3.0]), st.booleans()),
     st.tuples(st.just("doubted"), ids, st.integers(0, 2)),
     st.tuples(st.just("safe"), st.integers(0, 3)),
-    st.tuples(st.just("command"), st.sampled_from([Cancel, Pause, Resume, Confirm, Move]), ids),
+    st.tuples(
+        st.just("command"),
+        st.sampled_from([events.Cancel, events.Pause, events.Resume, events.Confirm, events.Move]),
+        ids,
+    ),
     st.tuples(st.just("reply"), ids),
     st.tuples(st.just("stop")),
     st.tuples(st.just("tick")),
@@ -166,7 +149,9 @@ events = st.one_of(
     st.tuples(st.just("follow"), ids, st.sampled_from([2.0, 4.0])),
     st.tuples(st.just("arrive")),
 )
-histories = st.lists(st.tuples(events, st.sampled_from([0.0, 0.05, 0.05, 1.0, 7.0])), max_size=60)
+histories = st.lists(
+    st.tuples(happenings, st.sampled_from([0.0, 0.05, 0.05, 1.0, 7.0])), max_size=60
+)
 
 
 EYES = Eyesight(CameraConfig(), model=True)
@@ -185,7 +170,7 @@ class World:
         self.acted = True
         self.stopped = False
 
-    def event(self, event: Event) -> None:
+    def event(self, event: events.Event) -> None:
         before = self.book
         self.book, effects = advance(before, event, self.now_s)
         assert (self.book, effects) == advance(before, event, self.now_s), "pure"
@@ -237,36 +222,38 @@ class World:
         match what:
             case ("status", fields, off_path):
                 self.seq += 1
-                self.event(Seen(status(seq=self.seq, **fields), off_path))
+                self.event(events.Seen(status(seq=self.seq, **fields), off_path))
             case ("submit", goal, confirm, replace):
                 self.acted = self.acted or goal not in self.book.missions
-                self.event(Submitted(goal, "x", Language.EN, confirm, replace))
+                self.event(events.Submitted(goal, "x", Language.EN, confirm, replace))
             case ("planned", goal, plan):
-                self.event(Planned(goal, plan, None if plan else FAILURE))
+                self.event(events.Planned(goal, plan, None if plan else FAILURE))
             case ("routed", back, failure):
                 ticket = max(0, self.book.tickets - back)
                 for goal in IDS:
-                    self.event(Routed(goal, ticket, failure))
+                    self.event(events.Routed(goal, ticket, failure))
             case ("surveyed", x_m, opened):
                 way = Obstruction((x_m, -0.2), (x_m, 0.2))
                 self.event(
-                    Surveyed(None if opened else way, bool(x_m > 2.5), (way,) if opened else ())
+                    events.Surveyed(
+                        None if opened else way, bool(x_m > 2.5), (way,) if opened else ()
+                    )
                 )
             case ("doubted", goal, back):
                 leg = (
                     max(0, self.book.missions[goal].leg - back) if goal in self.book.missions else 1
                 )
-                self.event(RouteDoubted(goal, leg, (2.0, 0.0)))
+                self.event(events.RouteDoubted(goal, leg, (2.0, 0.0)))
             case ("safe", back):
-                self.event(Journalled(max(0, self.book.written - back)))
+                self.event(events.Journalled(max(0, self.book.written - back)))
             case ("tick",):
-                self.event(Tick())
+                self.event(events.Tick())
             case ("sight", seen, why):
                 self.seq += 1
                 look = LookSeen(self.seq, self.now_s, None, 320, 240, ())
-                self.event(Sighted(Sight(look, seen, why)))
+                self.event(events.Sighted(Sight(look, seen, why)))
             case ("told", goal, at):
-                self.event(Told(goal, self.book.tickets, ImageAnswer(at=at, failure=None)))
+                self.event(events.Told(goal, self.book.tickets, ImageAnswer(at=at, failure=None)))
             case _:
                 self.act(what)
 
@@ -275,10 +262,10 @@ class World:
             case ("command", kind, goal):
                 self.command(kind(goal))
             case ("reply", goal):
-                self.command(Reply(goal, "yes"))
+                self.command(events.Reply(goal, "yes"))
             case ("stop",):
                 self.acted = False
-                self.event(Stopped("x"))
+                self.event(events.Stopped("x"))
                 assert motion_request(self.book) == STAND
                 assert self.book.running is None
             case ("crash",):
@@ -315,10 +302,10 @@ class World:
         self.play(("safe", 0))
         self.play(("routed", 0, None))
 
-    def command(self, command: Command) -> None:
+    def command(self, command: events.Command) -> None:
         before = self.book
         refused = refusal(before, command)
-        if refused is None and isinstance(command, (Resume, Confirm, Reply)):
+        if refused is None and isinstance(command, (events.Resume, events.Confirm, events.Reply)):
             self.acted = True
         self.event(command)
         if refused is not None:
@@ -334,7 +321,7 @@ class World:
         self.entries, self.written = [], {}
         self.book = MissionState(FACTS, eyes=EYES)
         self.acted = False
-        self.event(Restarted(tuple(self.disk.values()), self.disk_queue, 0.0))
+        self.event(events.Restarted(tuple(self.disk.values()), self.disk_queue, 0.0))
         assert motion_request(self.book) == STAND
 
 
@@ -355,7 +342,7 @@ def test_histories_hold_legs_after_somebody_who_walks() -> None:
     assert (leg.act.watch, leg.leg) == (True, 2)
     assert abs(leg.act.goal.x_m - 3.8) < 0.01, "it was laid anew"
     assert motion_request(world.book).leg == 2
-    for order in (("command", Pause, "g1"), ("command", Resume, "g1"), ("stop",)):
+    for order in (("command", events.Pause, "g1"), ("command", events.Resume, "g1"), ("stop",)):
         world.play(order)
         world.play(("sight", (), None))
     world.play(("status", {}, False))
