@@ -12,6 +12,7 @@ from dataclasses import replace
 from math import hypot
 from typing import TYPE_CHECKING
 
+from planner import skills
 from planner.bridge_client.bridge_status import standing
 from planner.language.catalogue import message, say, say_or_quote
 from planner.mission.activity import (
@@ -33,17 +34,6 @@ from planner.mission.step_failure import fail_step
 from planner.mission.transaction import Transaction
 from planner.perception.snapshot import Sight
 from planner.plan import Code, StepState
-from planner.skills import (
-    DriveLeg,
-    Fail,
-    Finish,
-    ImageAnswer,
-    Observe,
-    Question,
-    SkillAction,
-    Way,
-    act_of,
-)
 from planner.skills.conditions import judge_recalled
 from planner.skills.object_matching import fresh, list_confirmed
 from planner.skills.skill_state import LookState, PatrolState, ToolState
@@ -95,12 +85,12 @@ def stand_while_blind(turn: Transaction) -> bool:
     act, kind = leg.act, mission.steps[mission.step].kind
     if not (act.watch or act.wanted is not None or kind in LOOKING):
         return False
-    gaze = Observe(1, state=act.state, then=act.state, watch=act.watch)
+    gaze = skills.Observe(1, state=act.state, then=act.state, watch=act.watch)
     carry_out(turn, settle_activity(turn), gaze)
     return True
 
 
-def on_told(turn: Transaction, mission_id: str, ticket: int, answer: ImageAnswer) -> None:
+def on_told(turn: Transaction, mission_id: str, ticket: int, answer: skills.ImageAnswer) -> None:
     """Take the answer about the picture, if somebody still waits for it."""
     activity = turn.book.activity
     if isinstance(activity, AskingImage) and _goal_awaiting(turn, mission_id, ticket) is not None:
@@ -136,16 +126,16 @@ def end_if_due(turn: Transaction) -> None:
         case Waiting():
             finish_step(turn, StepState.SUCCEEDED)
         case AskingImage():
-            go_on(turn, activity.act.then, answer=ImageAnswer(failure="timed_out"))
+            go_on(turn, activity.act.then, answer=skills.ImageAnswer(failure="timed_out"))
         case Observing() if activity.looked > 0:
             _end_gaze(turn, activity)
         case Observing():
             why = turn.book.sight.blind or "camera_silent"
             said = message(Code.BLIND, why=say_or_quote("blind", why))
-            fail_step(turn, Fail(Code.BLIND, why, said))
+            fail_step(turn, skills.Fail(Code.BLIND, why, said))
         case CallingTool():
             said = message(Code.TOOL_FAILED, call=step.tool, why=say("tool_problem.timeout"))
-            fail_step(turn, Fail(Code.TOOL_FAILED, "timeout", said))
+            fail_step(turn, skills.Fail(Code.TOOL_FAILED, "timeout", said))
         case _:
             code = Code.MEMORY_UNAVAILABLE
             carry_out(turn, mission, judge_recalled(step.role, code, message(code)))
@@ -201,36 +191,36 @@ def _is_due(turn: Transaction, activity: Driving | Observing, sight: Sight) -> b
 def _ask_skill_again(turn: Transaction, activity: Driving | Observing) -> None:
     """Ask the skill in the middle of its act, and do what is new in its answer."""
     turn.change(asked_s=turn.now_s)
-    act = act_of(scene_of(turn, turn.at_work))
+    act = skills.act_of(scene_of(turn, turn.at_work))
     if _is_under_way(activity, act):
-        if isinstance(act, (DriveLeg, Observe)) and activity.act.watch:
+        if isinstance(act, (skills.DriveLeg, skills.Observe)) and activity.act.watch:
             turn.change(act=replace(activity.act, state=act.state, then=act.then))
     elif (
-        isinstance(act, DriveLeg)
+        isinstance(act, skills.DriveLeg)
         and isinstance(activity, Driving)
         and activity.act.watch
-        and activity.act.way is act.way is Way.ROUTE
+        and activity.act.way is act.way is skills.Way.ROUTE
     ):
         _lay_anew(turn, activity, act)
     else:
         carry_out(turn, settle_activity(turn), act)
 
 
-def _is_under_way(activity: Driving | Observing, act: SkillAction) -> bool:
+def _is_under_way(activity: Driving | Observing, act: skills.SkillAction) -> bool:
     """Return whether the running activity already serves this request."""
     if isinstance(activity, Observing):
-        return isinstance(act, Observe)
-    if not isinstance(act, DriveLeg) or act.way is not activity.act.way:
+        return isinstance(act, skills.Observe)
+    if not isinstance(act, skills.DriveLeg) or act.way is not activity.act.way:
         return False
     goal = activity.act.goal
     turned = abs(wrap(act.goal.yaw_rad - goal.yaw_rad))
-    if act.way is Way.SPIN:
+    if act.way is skills.Way.SPIN:
         return turned <= SAME_RAD
     apart_m = hypot(act.goal.x_m - goal.x_m, act.goal.y_m - goal.y_m)
     return apart_m <= SAME_M
 
 
-def _lay_anew(turn: Transaction, leg: Driving, act: DriveLeg) -> None:
+def _lay_anew(turn: Transaction, leg: Driving, act: skills.DriveLeg) -> None:
     """Aim the leg at a goal that has moved; the old horizon streams until the new way is there."""
     laid = replace(
         leg.act,
@@ -261,9 +251,9 @@ def on_tool_answered(turn: Transaction, event: ToolAnswered) -> None:
     if mission is None or not isinstance(turn.book.activity, CallingTool):
         return
     if event.asks:
-        carry_out(turn, mission, Question(event.said, ToolState(question=event.said)))
+        carry_out(turn, mission, skills.Question(event.said, ToolState(question=event.said)))
     elif event.problem is None:
-        carry_out(turn, mission, Finish({}, Code.TOOL_ANSWERED, event.said, event.read))
+        carry_out(turn, mission, skills.Finish({}, Code.TOOL_ANSWERED, event.said, event.read))
     else:
         figures = {"code": Code.TOOL_FAILED, "read": event.read}
-        carry_out(turn, mission, Fail(Code.TOOL_FAILED, event.problem, event.said, figures))
+        carry_out(turn, mission, skills.Fail(Code.TOOL_FAILED, event.problem, event.said, figures))

@@ -5,6 +5,7 @@ When a leg is done, ``arrival`` tells. Nothing moves or speaks before its beginn
 
 from __future__ import annotations
 
+from planner import skills
 from planner.bridge_client.bridge_status import cannot_move
 from planner.language.catalogue import message, say
 from planner.language.plan_words import name_call
@@ -32,25 +33,6 @@ from planner.mission.transitions import GoalFact
 from planner.plan import CONTROL, JUDGED, NEEDS_CAMERA, Code, StepState, parent_of
 from planner.plan.plan_walk import RoundBudget, enter
 from planner.plan.plan_walk import go_on as go_on_walking
-from planner.skills import (
-    AskImage,
-    CallTool,
-    DriveLeg,
-    Fail,
-    Finish,
-    ImageAnswer,
-    LookUp,
-    Observe,
-    Question,
-    Retry,
-    SkillAction,
-    SkillStateBase,
-    Skip,
-    Speak,
-    Stand,
-    Think,
-    act_of,
-)
 from planner.skills.patrol import so_far
 from planner.skills.skill_state import PatrolState
 
@@ -100,7 +82,7 @@ def begin_step(turn: Transaction) -> None:
         queue.pause_running(turn, cause)
         return
     mission = measure_from(turn, mission, turn.book.pose)
-    carry_out(turn, mission, act_of(scene_of(turn, mission)))
+    carry_out(turn, mission, skills.act_of(scene_of(turn, mission)))
 
 
 def _enter(turn: Transaction, mission: Mission) -> Mission:
@@ -113,44 +95,44 @@ def _enter(turn: Transaction, mission: Mission) -> Mission:
 
 
 def carry_out(  # noqa: C901, PLR0912  # one case an act
-    turn: Transaction, mission: Mission, act: SkillAction
+    turn: Transaction, mission: Mission, act: skills.SkillAction
 ) -> None:
     """Do what a skill asked for."""
     match act:
-        case DriveLeg():
+        case skills.DriveLeg():
             _begin(turn, mission, bill=act.bill, **so_far(act.state))
             leg = Driving(record=turn.next_entry, act=act, since_s=turn.now_s, asked_s=turn.now_s)
             turn.set(activity=leg)
             ask_route(turn)
-        case Observe():
+        case skills.Observe():
             _gaze(turn, mission, act)
-        case AskImage():
+        case skills.AskImage():
             _inquire(turn, mission, act)
-        case Retry():
+        case skills.Retry():
             _later(turn, mission, act)
-        case Stand():
+        case skills.Stand():
             _begin(turn, _keep_state(turn, mission, act.state))
             until_s = turn.now_s + act.seconds
             turn.set(activity=Waiting(record=turn.next_entry, until_s=until_s))
-        case Speak():
+        case skills.Speak():
             _begin(turn, mission)
             turn.set(activity=Speaking(record=turn.next_entry))
-        case LookUp():
+        case skills.LookUp():
             _look_up(turn, mission, act)
-        case CallTool():
+        case skills.CallTool():
             _call_tool(turn, mission, act)
-        case Question():
+        case skills.Question():
             _ask(turn, mission, act)
-        case Think():
+        case skills.Think():
             _decide(turn, mission, act)
-        case Finish():
+        case skills.Finish():
             told = (
                 {} if act.code is None else {"code": act.code, "said": act.said, "read": act.read}
             )
             finish_step(turn, StepState.SUCCEEDED, **act.figures, **told)
-        case Skip():
+        case skills.Skip():
             finish_step(turn, StepState.SKIPPED, reason=act.reason)
-        case Fail():
+        case skills.Fail():
             fail_step(turn, act)
 
 
@@ -159,12 +141,14 @@ def _begin(turn: Transaction, mission: Mission, **record: object) -> Mission:
     return queue.note_step(turn, mission, state=StepState.RUNNING, reason=None, **record)
 
 
-def _keep_state(turn: Transaction, mission: Mission, state: SkillStateBase | None) -> Mission:
+def _keep_state(
+    turn: Transaction, mission: Mission, state: skills.SkillStateBase | None
+) -> Mission:
     """Keep what a skill remembers from now on; None: as before."""
     return turn.put(mission, skill_state=state or mission.skill_state)
 
 
-def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
+def _gaze(turn: Transaction, mission: Mission, act: skills.Observe) -> None:
     _begin(turn, mission, bill=act.bill)
     observing = Observing(
         record=turn.next_entry,
@@ -176,7 +160,7 @@ def _gaze(turn: Transaction, mission: Mission, act: Observe) -> None:
     turn.set(activity=observing)
 
 
-def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
+def _inquire(turn: Transaction, mission: Mission, act: skills.AskImage) -> None:
     """Ask about the picture, standing; the answer comes with the ticket."""
     _begin(turn, mission, bill=act.bill)
     asking = AskingImage(
@@ -190,7 +174,7 @@ def _inquire(turn: Transaction, mission: Mission, act: AskImage) -> None:
     turn.emit(AskEyes(mission.id, asking.ticket, mission.language, act))
 
 
-def _look_up(turn: Transaction, mission: Mission, act: LookUp) -> None:
+def _look_up(turn: Transaction, mission: Mission, act: skills.LookUp) -> None:
     _begin(turn, mission)
     step, ticket, until_s = (
         mission.steps[mission.step],
@@ -202,7 +186,7 @@ def _look_up(turn: Transaction, mission: Mission, act: LookUp) -> None:
     turn.emit(AskMemory(mission.id, ticket, *asked))
 
 
-def _call_tool(turn: Transaction, mission: Mission, act: CallTool) -> None:
+def _call_tool(turn: Transaction, mission: Mission, act: skills.CallTool) -> None:
     """Have a tool asked once this is on disk."""
     _begin(turn, _keep_state(turn, mission, act.state))
     calling = CallingTool(
@@ -216,18 +200,18 @@ def _call_tool(turn: Transaction, mission: Mission, act: CallTool) -> None:
 
 def go_on(
     turn: Transaction,
-    then: SkillStateBase | None,
+    then: skills.SkillStateBase | None,
     *,
     gazed_s: float | None = None,
-    answer: ImageAnswer | None = None,
+    answer: skills.ImageAnswer | None = None,
 ) -> None:
     """Go on in the step after a gaze or an answer: ask its skill what is next."""
     mission = queue.settle_activity(turn)
     mission = turn.put(mission, part=mission.part + 1, skill_state=then or mission.skill_state)
-    carry_out(turn, mission, act_of(scene_of(turn, mission, gazed_s, answer)))
+    carry_out(turn, mission, skills.act_of(scene_of(turn, mission, gazed_s, answer)))
 
 
-def _later(turn: Transaction, mission: Mission, act: Retry) -> None:
+def _later(turn: Transaction, mission: Mission, act: skills.Retry) -> None:
     """Try again soon; how long what holds has stood runs on, so that no wait lasts for ever."""
     retry_s = turn.now_s + act.seconds
     if act.state is not None:
@@ -239,7 +223,7 @@ def _later(turn: Transaction, mission: Mission, act: Retry) -> None:
     turn.set(activity=Retrying(record=turn.next_entry, retry_s=retry_s))
 
 
-def _ask(turn: Transaction, mission: Mission, act: Question) -> None:
+def _ask(turn: Transaction, mission: Mission, act: skills.Question) -> None:
     """Ask a person. What was answered before was about another question: it is forgotten."""
     again = _is_under_way(mission, act.state)  # then it was perhaps said
     _begin(turn, _keep_state(turn, mission, act.state), answer=None)
@@ -247,13 +231,13 @@ def _ask(turn: Transaction, mission: Mission, act: Question) -> None:
     turn.set(activity=asking)
 
 
-def _is_under_way(mission: Mission, state: SkillStateBase | None) -> bool:
+def _is_under_way(mission: Mission, state: skills.SkillStateBase | None) -> bool:
     """Tell whether the current step was begun, and its skill remembers what it did then."""
     begun = mission.steps[mission.step].state is StepState.RUNNING
     return begun and state in (None, mission.skill_state)
 
 
-def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
+def _decide(turn: Transaction, mission: Mission, act: skills.Think) -> None:
     if _is_under_way(mission, act.state):  # paused meanwhile: it was counted
         think(turn, mission)
         return
@@ -261,7 +245,7 @@ def _decide(turn: Transaction, mission: Mission, act: Think) -> None:
         said = message(
             Code.OUT_OF_BUDGET, budget=say("account.thoughts", count=turn.book.rules.decides)
         )
-        fail_step(turn, Fail(Code.OUT_OF_BUDGET, "thoughts", said))
+        fail_step(turn, skills.Fail(Code.OUT_OF_BUDGET, "thoughts", said))
         return
     mission = _begin(turn, _keep_state(turn, mission, act.state))
     think(turn, turn.put(mission, decides=mission.decides + 1))
@@ -280,7 +264,7 @@ def finish_step(turn: Transaction, state: StepState, **record: object) -> None:
         parent = parent_of(mission.steps, mission.step)
         rounds = mission.steps[parent].round if parent is not None else 1
         said = message(Code.UNMET, rounds=rounds)
-        fail_step(turn, Fail(Code.UNMET, Code.UNMET.value, said))
+        fail_step(turn, skills.Fail(Code.UNMET, Code.UNMET.value, said))
         return
     to_step(turn, turn.put_steps(mission, at.row), at.index)
     begin_step(turn)
