@@ -16,23 +16,11 @@ from typing import TYPE_CHECKING, Any
 
 from planner.mission.errors import MissionError
 from planner.mission.state import ORDER_SOURCE, Mission, MissionState
-from planner.orders import world
+from planner.orders import scheduler, world
 from planner.orders.interfaces import GoalGiver, OrderClocks
 from planner.orders.ledger import End, FiringLedger, LedgerEntry
 from planner.orders.notifier import Notifier, OrderAnnouncer
 from planner.orders.order import Firing, FiringState, StandingOrder, key_of, new_nonce
-from planner.orders.scheduler import (
-    INTERRUPTED,
-    Fire,
-    Keep,
-    Note,
-    OrderBook,
-    RobotView,
-    add,
-    drop,
-    put,
-    tick,
-)
 from planner.orders.world import Watch, notice
 from planner.plan import Bilingual, GoalState, QuietHours
 from planner.state_database import StateUnavailable
@@ -67,7 +55,7 @@ class OrderKeeper:
         report: Callable[[], ObstacleReport | None] = lambda: None,
     ) -> None:
         """Put the parts together; nothing is read yet."""
-        self.book = OrderBook(zone, quiet)
+        self.book = scheduler.OrderBook(zone, quiet)
         self.version = 0  # rises with every change
         self.last_number = 0  # the highest that an order ever had, here or by the goals it gave
         self.failure: BaseException | None = None
@@ -96,12 +84,14 @@ class OrderKeeper:
         self.last_number = max(number, world.highest_number(self.goals.book.missions.values()))
         self.book = replace(self.book, floor_unix_s=seen_unix_s)
         for order in orders:
-            self.book = put(self.book, order)
+            self.book = scheduler.put(self.book, order)
         for firing in firings:
             self._take_up(firing)
         for old in (order for order in orders if not order.nonce):  # kept by an older program
-            self._ledger.ask(Keep(renewed := old.model_copy(update={"nonce": new_nonce()})))
-            self.book = put(self.book, renewed)
+            self._ledger.ask(
+                scheduler.Keep(renewed := old.model_copy(update={"nonce": new_nonce()}))
+            )
+            self.book = scheduler.put(self.book, renewed)
         await self.work_off()
         if rounds:
             self._tasks = [
@@ -137,7 +127,7 @@ class OrderKeeper:
             return
         goal = firing.goal or self.goals.find(key_of(order, firing.serial))
         if goal is None:
-            self._miss(order, firing, INTERRUPTED)
+            self._miss(order, firing, scheduler.INTERRUPTED)
             return
         given = firing.model_copy(update={"state": FiringState.GIVEN, "goal": goal})
         self._open[firing.order] = given
@@ -165,10 +155,10 @@ class OrderKeeper:
         self._ended = ended
         facts = world.facts_now(book, self._report(), awake_s, self._done, self._failed)
         self._watch, happened = notice(self._watch, facts, awake_s)
-        told = RobotView(world.hindrance(book, awake_s), self._busy(book), happened)
-        self.book, effects = tick(self.book, told, now)
+        told = scheduler.RobotView(world.hindrance(book, awake_s), self._busy(book), happened)
+        self.book, effects = scheduler.tick(self.book, told, now)
         for effect in effects:
-            if isinstance(effect, Fire):  # from now on, not from when it is written
+            if isinstance(effect, scheduler.Fire):  # from now on, not from when it is written
                 self._give_up(self._open.get(effect.order.id))
                 self._open[effect.order.id] = effect.firing
             self._ledger.ask(effect)
@@ -204,17 +194,17 @@ class OrderKeeper:
         if order is None:  # removed meanwhile
             return
         match request:
-            case Fire(_, firing) if entry.is_written:
+            case scheduler.Fire(_, firing) if entry.is_written:
                 await self._fire(order, firing)
-            case Fire(_, firing):
+            case scheduler.Fire(_, firing):
                 self._miss(order, firing, UNWRITABLE)
-            case Note(_, firing):
+            case scheduler.Note(_, firing):
                 new = entry.kept is None or entry.kept.count == firing.count  # first in a row
                 if firing.state is FiringState.MISSED and new:
                     self.announcer.tell_missed(order, firing)
                 if not entry.is_written:
                     self._ledger.ask_again(End(order, firing))
-            case Keep() | End() if not entry.is_written:
+            case scheduler.Keep() | End() if not entry.is_written:
                 self._ledger.ask_again(request)
                 return
         self.publish_change()
@@ -297,11 +287,11 @@ class OrderKeeper:
         """
         await self._ledger.keep(order, seen_unix_s=self.clocks.unix())
         self.last_number = max(self.last_number, order.number)
-        self.book = add(self.book, order)
+        self.book = scheduler.add(self.book, order)
         over = [o for o in self.book.orders.values() if o.ended and o.id not in self._open]
         for old in sorted(over, key=lambda o: o.number)[: max(0, len(over) - MOST_ENDED)]:
             await self._ledger.remove(old.id)
-            self.book = drop(self.book, old.id)
+            self.book = scheduler.drop(self.book, old.id)
         self.publish_change()
 
     async def revise(self, order_id: str, **changes: Any) -> StandingOrder:
@@ -312,13 +302,13 @@ class OrderKeeper:
         """
         before = self.book.orders[order_id]
         changed = before.model_copy(update=changes)
-        self.book = (add if "rule" in changes else put)(self.book, changed)
+        self.book = (scheduler.add if "rule" in changes else scheduler.put)(self.book, changed)
         try:
             await self._ledger.keep(changed)
         except StateUnavailable:
             names = changes.keys() - {"handled_unix_s"}  # runs may have come meanwhile
             old = {name: getattr(before, name) for name in names}
-            self.book = put(self.book, self.book.orders[order_id].model_copy(update=old))
+            self.book = scheduler.put(self.book, self.book.orders[order_id].model_copy(update=old))
             raise
         self.publish_change()
         return changed
@@ -326,7 +316,7 @@ class OrderKeeper:
     async def remove(self, order_id: str) -> None:
         """Forget an order. Raises StateUnavailable."""
         await self._ledger.remove(order_id)
-        self.book = drop(self.book, order_id)
+        self.book = scheduler.drop(self.book, order_id)
         self._open.pop(order_id, None)
         self.announcer.told_unix_s.pop(order_id, None)
         self.publish_change()
