@@ -1,9 +1,10 @@
-"""When rules are due: over the nights when clocks change, and which rules can't be kept."""
+"""When rules are due: over nights when clocks change and on named days; which can't be kept."""
 
 from __future__ import annotations
 
 from datetime import datetime, timedelta
 from itertools import pairwise
+from pathlib import Path
 from zoneinfo import ZoneInfo
 
 import pytest
@@ -11,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.orders.errors import OrderRefusal
-from planner.orders.rule import is_quiet, judge, next_due, settle, upcoming
+from planner.orders.new_order import OrderQuestion, order_of_text
+from planner.orders.rule import JUST_OVER_DAYS, is_quiet, judge, next_due, settle, upcoming
 from planner.plan import QuietHours
 from planner.plan.timing import (
     AtRule,
@@ -23,7 +25,7 @@ from planner.plan.timing import (
     Rule,
     WorldEvent,
 )
-from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S
+from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, MovedClocks, kept_in
 
 ZONES = [BERLIN, ZoneInfo("America/New_York"), ZoneInfo("Australia/Lord_Howe"), ZoneInfo("UTC"),
          ZoneInfo("Asia/Shanghai")]  # fmt: skip
@@ -159,3 +161,133 @@ def test_quiet_hours_go_over_midnight() -> None:
     assert is_quiet(quiet, float("nan"), BERLIN)
     assert quiet.text == "22:00–07:00"
     assert is_quiet(QuietHours(60, 120), midnight + timedelta(minutes=90).total_seconds(), BERLIN)
+
+
+FRIDAY = "2027-01-15T12:00"
+
+
+def when(text: str, now: str = FRIDAY) -> str:
+    new = order_of_text(text, None, "api")
+    assert isinstance(new.when, DayTime), text
+    rule = settle(new.when, at(now), BERLIN)
+    assert isinstance(rule, AtRule)
+    return datetime.fromtimestamp(rule.unix_s, BERLIN).strftime("%Y-%m-%d %H:%M")
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("on 28 March at 3:30 check the door", "2027-03-28 03:30"),
+        ("check the door on March 28th at 3:30", "2027-03-28 03:30"),
+        ("on the 28th of March at half past three go home", "2027-03-28 03:30"),
+        ("on the 5th at noon go home", "2027-02-05 12:00"),
+        ("on the 20th at noon go home", "2027-01-20 12:00"),
+        ("on the 31st at noon go home", "2027-01-31 12:00"),
+        ("on the first of next month at nine remind me to pay", "2027-02-01 09:00"),
+        ("remind me on the 1st of next month at nine to pay", "2027-02-01 09:00"),
+        ("the day after tomorrow at seven go home", "2027-01-17 07:00"),
+        ("in a week at six remind me to call Tom", "2027-01-22 06:00"),
+        ("in three days at noon go home", "2027-01-18 12:00"),
+        ("on Tuesday next week at six go home", "2027-01-19 06:00"),
+        ("on Christmas Eve at six in the evening say hello", "2027-12-24 18:00"),
+        ("on 2027-03-28 at 20:00 go home", "2027-03-28 20:00"),
+        ("3月28号三点半检查门", "2027-03-28 03:30"),
+        ("在三月二十八日下午两点半去厨房", "2027-03-28 14:30"),
+        ("五号中午去厨房", "2027-02-05 12:00"),
+        ("下周五六点去厨房", "2027-01-22 06:00"),
+        ("下下周一早上七点去厨房", "2027-01-25 07:00"),
+        ("后天早上七点去厨房", "2027-01-17 07:00"),
+        ("大后天早上七点去厨房", "2027-01-18 07:00"),
+        ("下个月一号早上八点提醒我交房租", "2027-02-01 08:00"),
+        ("三天后中午去厨房", "2027-01-18 12:00"),
+        ("一周后晚上八点提醒我交房租", "2027-01-22 20:00"),
+        ("圣诞节早上八点说圣诞快乐", "2027-12-25 08:00"),
+        ("在2027-03-28的20:00去厨房", "2027-03-28 20:00"),
+    ],
+)  # fmt: skip
+def test_a_day_that_is_said_is_settled_by_the_clock(text: str, meant: str) -> None:
+    assert when(text) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "now", "code"),
+    [
+        ("on 31 June at noon go home", FRIDAY, "order_no_such_date"),
+        ("6月31号中午回家", FRIDAY, "order_no_such_date"),
+        ("on 29 February at noon go home", FRIDAY, "order_no_such_date"),
+        ("2月29号中午回家", FRIDAY, "order_no_such_date"),
+        ("on the 31st of next month at noon go home", FRIDAY, "order_no_such_date"),
+        ("on 45 March at noon go home", FRIDAY, "order_no_such_date"),
+        ("on 28 March at 2:30 check the door", FRIDAY, "order_time_unknown"),
+        ("3月28号两点半检查门", FRIDAY, "order_time_unknown"),
+        ("on 5 January at noon go home", FRIDAY, "order_in_past"),
+        ("on 5 March 2026 at noon go home", FRIDAY, "order_in_past"),
+        ("1月15号早上八点回家", FRIDAY, "order_in_past"),
+        ("本周一早上八点回家", FRIDAY, "order_in_past"),
+        ("on 5 March 2029 at noon go home", FRIDAY, "order_too_far"),
+        ("next Friday go home", FRIDAY, "order_time_missing"),
+    ],
+)  # fmt: skip
+def test_a_day_that_is_none_or_over_is_told_with_its_code(text: str, now: str, code: str) -> None:
+    with pytest.raises(OrderRefusal) as refused:
+        when(text, now)
+    assert refused.value.code == code
+    assert refused.value.message.en != refused.value.message.zh
+
+
+def test_a_leap_day_comes_in_a_leap_year() -> None:
+    assert when("on 29 February at noon go home", "2027-12-01T12:00") == "2028-02-29 12:00"
+
+
+@given(st.integers(0, 364), st.integers(1, 363 - JUST_OVER_DAYS), st.integers(5, 23))
+def test_a_date_without_a_year_is_the_one_around_now(start: int, ahead: int, hour: int) -> None:
+    now = datetime(2026, 1, 1, 12, tzinfo=BERLIN) + timedelta(days=start)
+    day = (now + timedelta(days=ahead)).date()
+    for wanted in (day, (now + timedelta(days=1)).date()):
+        said = DayTime(hour=hour, day=wanted.day, month=wanted.month)
+        rule = settle(said, now.timestamp(), BERLIN)
+        assert isinstance(rule, AtRule)
+        due = datetime.fromtimestamp(rule.unix_s, BERLIN)
+        assert (due.date(), due.hour) == (wanted, hour)
+
+
+@pytest.mark.parametrize(
+    "text", ["go to the kitchen on the second floor", "look on the 3rd shelf",
+             "march 2 metres forward", "去3号房间", "三号桌有没有人"],
+)  # fmt: skip
+def test_a_number_of_a_thing_is_no_day(text: str) -> None:
+    with pytest.raises(OrderRefusal) as refused:
+        order_of_text(text, None, "api")
+    assert refused.value.code == "order_malformed"
+
+
+@pytest.mark.parametrize(
+    ("text", "offers"),
+    [
+        ("next Friday at six go to the kitchen",
+         ["on 2027-01-15 at 06:00 go to the kitchen", "on 2027-01-22 at 06:00 go to the kitchen"]),
+        ("remind me next Friday at six to call Tom",
+         ["on 2027-01-15 at 06:00 remind me to call Tom",
+          "on 2027-01-22 at 06:00 remind me to call Tom"]),
+    ],
+)  # fmt: skip
+async def test_next_friday_is_asked_about_where_people_mean_either(
+    tmp_path: Path, text: str, offers: list[str]
+) -> None:
+    kept = await kept_in(tmp_path, MovedClocks(unix_s=NOON_UNIX_S - 2 * 86_400.0))
+    with pytest.raises(OrderQuestion) as question:
+        await kept.orders.intake.give(order_of_text(text, None, "api"), "g-1")
+    assert [option.text for option in question.value.asked.options] == offers
+    assert kept.orders.keeper.book.orders == {}
+    await kept.orders.intake.give(order_of_text(offers[1], None, "api"), "g-2")
+    [order] = kept.orders.keeper.book.orders.values()
+    assert order.order in ("go to the kitchen", "say “call Tom”")
+
+
+@pytest.mark.parametrize("day", [4, 5, 6])
+async def test_next_friday_is_one_day_from_a_friday_on(tmp_path: Path, day: int) -> None:
+    kept = await kept_in(tmp_path, MovedClocks(unix_s=NOON_UNIX_S + (day - 4) * 86_400.0))
+    new = order_of_text("next Friday at six go to the kitchen", None, "api")
+    order = await kept.orders.intake.give(new, "g-1")
+    assert isinstance(order.rule, AtRule)
+    assert order.rule.unix_s == at("2027-01-22T06:00")
