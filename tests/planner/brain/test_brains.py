@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 
 import pytest
 
@@ -12,7 +11,6 @@ from planner.brain import (
     BadPlan,
     Brain,
     BrainConfigError,
-    BrainDown,
     OfflineBrain,
     ScriptedBrain,
     ThinkRequest,
@@ -97,15 +95,6 @@ def test_script_is_followed_and_its_last_line_repeats(home: Vocabulary) -> None:
 def test_a_text_that_is_no_plan_is_rejected(text: str, home: Vocabulary) -> None:
     with pytest.raises(BadPlan, match="no plan"):
         ask(ScriptedBrain(replies=[text]), home)
-
-
-def test_a_text_that_is_a_plan_is_taken(home: Vocabulary) -> None:
-    assert ask(ScriptedBrain(replies=[json.dumps(GOOD.model_dump())]), home) == GOOD
-
-
-def test_a_scripted_failure_is_raised(home: Vocabulary) -> None:
-    with pytest.raises(BrainDown, match="503"):
-        ask(ScriptedBrain(replies=[BrainDown("503")]), home)
 
 
 def test_an_empty_script_refuses_to_start() -> None:

@@ -42,12 +42,6 @@ def ask(brain: FallbackBrain, home: Vocabulary, text: str = "go to the kitchen")
     return asyncio.run(brain.think(ThinkRequest(text=text, vocabulary=home)))
 
 
-def test_a_model_that_answers_is_believed(home: Vocabulary) -> None:
-    thought = ask(FallbackBrain(ScriptedBrain([BY_MODEL]), OfflineBrain()), home)
-    assert (thought.plan, thought.brain.name) == (BY_MODEL, "scripted")
-    assert thought.brain.fallback_from is None
-
-
 @pytest.mark.parametrize(
     ("reply", "why"), [(DOWN, "timeout"), ("not json", "bad_plan"), (BrainDown("x"), "unavailable")]
 )

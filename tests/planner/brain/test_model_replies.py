@@ -131,10 +131,6 @@ def test_plain_words_stay(text: str) -> None:
     assert shown(text).text == text
 
 
-def test_a_short_key_cuts_no_words() -> None:
-    assert shown("the hall", "the").text == "the hall"
-
-
 def test_what_hides_or_turns_text_is_taken_out() -> None:
     assert shown("a\x1b[31mb\u202ec\ud800d\u2028e\r\nf\u200b").text == "a[31mbcde\nf"
 

@@ -91,7 +91,6 @@ SEEN = tuple(
         for place in ("kitchen", "living_room", "study", "bedroom", "hallway")
     )
 )
-KEYS = "the keys of the cellar are under the blue book on the shelf"
 
 
 def test_what_the_order_names_of_twenty_things_and_four_goals_are_told_to_a_robot_at_rest() -> None:
@@ -117,19 +116,6 @@ def test_people_are_remembered_though_the_order_has_no_word_for_them() -> None:
 def test_orders_in_thought_and_paused_ones_are_told() -> None:
     told = tell_situation(Situation(thinking=("go home",), paused=("count the cups",)), 200)
     assert told == {"now": {"thinking_about": ["go home"], "paused": ["count the cups"]}}
-
-
-@pytest.mark.parametrize("said", [0, 5, 20])
-def test_whatever_is_remembered_a_request_is_within_the_budget(said: int) -> None:
-    facts = tuple(
-        RememberedItem(what=f"{KEYS} {n}", said=True, minutes=n, fits=True) for n in range(said)
-    )
-    remembered = (*facts, *SEEN)[:MAX_REMEMBERED]
-    messages = sent(BUSY.model_copy(update={"remembered": remembered}), "where are my keys?")
-    told = json.loads(messages[1]["content"])
-    assert tokens(messages) <= BUDGET_TOKENS
-    assert told["recent"], "what gives way is the oldest of whichever are more"
-    assert told["remembered"]
 
 
 def test_what_stands_reaches_no_rule() -> None:

@@ -25,8 +25,6 @@ from tests.planner.orders.player import Player, order
 from tests.planner.orders.test_intake import say, take
 
 DAY_S = 86_400.0
-TOMORROW, SUNDAY = OnceDay(ahead=1), OnceDay(weekday=6)
-"""It is Friday, noon."""
 
 
 @pytest.mark.parametrize(

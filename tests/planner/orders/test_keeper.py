@@ -1,4 +1,4 @@
-"""Orders fire once, are written down before, are told when missed, keep number and keys for ever."""
+"""Orders fire once, are written down before, are told when missed, keep their numbers."""
 
 from __future__ import annotations
 

@@ -91,15 +91,6 @@ def test_three_gaps_in_ten_seconds(gaps_s: tuple[float, ...], ticks: int, rows: 
     assert len(tick.s.loop.gaps_at_s) == min(3, len(gaps_s) + bool(rows))
 
 
-@table(("granted", "virtual", "count"), [(True, False, 0), (False, True, 0), (False, False, 1)])
-def test_rights_refused_matter_on_a_real_drive(granted: bool, virtual: bool, count: int) -> None:
-    tick = at()
-    tick.s.loop = replace(tick.s.loop, real_time=granted)
-    drive = ROBOT.drive.model_copy(update={"kind": "sim" if virtual else "metal"})
-    tick.config = replace(tick.config, robot=ROBOT.model_copy(update={"drive": drive}))
-    assert len(seen("rights", tick)) == count
-
-
 def drawing(
     amps: float | None, *, peak_s: float = 0.0, heat: float = 0.0
 ) -> tuple[TickContext, Dirty]:
@@ -365,20 +356,6 @@ def test_a_brain_is_late_lost_or_gone(
 
 
 @table(
-    ("used_age_s", "owned", "stale"),
-    [(1.0, True, False), (1.0 + EPS, True, True), (9.0, False, False), (None, True, False)],
-)
-def test_a_brain_that_thinks_on_old_facts_is_stale(
-    used_age_s: float | None, owned: bool, stale: bool
-) -> None:
-    tick = at_now()
-    used_s = None if used_age_s is None else tick.now_s - used_age_s
-    owner = tick.s.ownership.owner if owned else None
-    tick.s.ownership = replace(tick.s.ownership, used_s=used_s, owner=owner, echo_s=tick.now_s)
-    assert seen("brain", tick) == ["BRAIN_STALE.0"] * stale
-
-
-@table(
     ("changes", "rows"),
     [
         ({}, []),
@@ -414,16 +391,6 @@ def test_commands_grow_stale_bad_and_spent(changes: dict[str, object], rows: lis
     mission = None if told["mission"] is None else "m1"
     tick.s.grants = replace(tick.s.grants, metres=float(str(told["metres"])), mission=mission)
     assert seen("commands", tick) == rows
-
-
-def test_missed_ticks_are_a_reason_once_where_lateness_is_one_too() -> None:
-    world = reached("active")
-    for _ in range(4):
-        world.late(0.006)
-        world.tick()
-    world.extra = replace(world.extra, loop=LoopFacts(late_s=0.006, missed_ticks=3))
-    world.tick()
-    assert "late ticks" in world.state.rows["LOOP_LATE.0"].evidence
 
 
 @table(("ago_s", "told"), [(1.0, ["HAND_BUDGET.0"]), (1.0 + EPS, [])])

@@ -174,15 +174,6 @@ def test_points_out_of_sight_are_found_where_they_matter(twist: Twist2, beside: 
                 assert free_length(near, here, twist, RADIUS, reach_m) == free, (degree, sight_m)
 
 
-def test_a_nearer_point_that_is_seen_later_counts() -> None:
-    for twist in (Twist2(0.5, 0.02), Twist2(0.5, -0.02)):
-        for later_m in (1.3, 1.75):
-            seen = ((5, 1.9), (355, later_m))
-            points = [(r * cos(radians(d)), r * sin(radians(d))) for d, r in seen]
-            free = free_length(picture({5: 1.9, 355: later_m}), IDENTITY, twist, RADIUS)
-            assert free.s_m == pytest.approx(walked_m(points, IDENTITY, twist), abs=1e-5)
-
-
 def test_half_a_millimetre_of_a_graze_counts() -> None:
     beside = replace(picture({}), xs_m=(0.05,), ys_m=(-0.3495,), nearest_m=0.35)
     for twist in (AHEAD, Twist2(0.5, 0.005)):

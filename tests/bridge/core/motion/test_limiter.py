@@ -74,11 +74,6 @@ def test_the_stopping_length_is_enough_and_not_much_more() -> None:
     assert need - 0.02 <= gone <= need
 
 
-def test_a_stop_while_accelerating_never_speeds_up_first() -> None:
-    rising = LimiterState(Twist2(0.3, 0.0), 0.5, 0.5)
-    assert shape(STILL, rising, BASE, LIMITS, DT).sent.v_mps < 0.3
-
-
 speeds = st.builds(Twist2, st.floats(-2, 2), st.floats(-4, 4))
 wild = st.builds(Twist2, st.floats(), st.floats())
 memories = st.builds(LimiterState, speeds, st.floats(-3, 3), st.floats(-3, 3))

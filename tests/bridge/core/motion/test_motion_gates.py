@@ -88,13 +88,6 @@ def test_where_nothing_comes_back_speed_is_capped(asked: Twist2, passed: Twist2,
     assert tick.s.motion.bound_by == by
 
 
-def test_a_pressed_bumper_shuts() -> None:
-    tick = driving(bumper_front=True)
-    tick.s.gate = Gate()
-    assert apply(tick, AHEAD) == STILL
-    assert (tick.s.motion.bound_by, tick.s.gate.shut_since_s) == ("contact", tick.now_s)
-
-
 @table(
     ("shut", "start", "before", "turned_rad", "after"),
     [

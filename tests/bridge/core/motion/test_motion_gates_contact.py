@@ -8,10 +8,8 @@ from hypothesis import strategies as st
 
 from bridge.core.motion.motion_gates import contact_gate, touched_input
 from tests.bridge.core.fake_planner import FakeDrive
-from tests.bridge.core.motion.test_motion_gates import driving
 from tests.bridge.core.reached import reached
 from tests.bridge.core.scripted import World
-from tests.bridge.core.table import table
 from wire import STILL, DriveState, Mode, Twist2
 
 speeds = st.floats(-2.0, 2.0)
@@ -85,24 +83,6 @@ def test_a_hand_on_the_stick_may_back_away_slowly() -> None:
         world.teleop(0.4, 0.0, held=True)
         world.tick()
     assert world.sent.v_mps <= 1e-9
-
-
-@table(
-    ("asked", "passed"),
-    [
-        (Twist2(-0.05, 0.1), Twist2(-0.05, 0.1)),
-        (Twist2(-0.2, 0.0), Twist2(-0.1, 0.0)),
-        (Twist2(-0.2, 0.2), Twist2(-0.1, 0.1)),
-        (Twist2(-0.1, 0.6), Twist2(-0.05, 0.3)),
-        (Twist2(0.0, 0.1), Twist2(0.0, 0.1)),
-        (Twist2(0.0, -0.6), Twist2(0.0, -0.3)),
-        (STILL, STILL),
-    ],
-)
-def test_away_from_a_contact_one_creeps(asked: Twist2, passed: Twist2) -> None:
-    state = driving(bumper_front=True).s.drive.newest
-    got = contact_gate(state, asked)
-    assert (got.v_mps, got.w_radps) == pytest.approx((passed.v_mps, passed.w_radps))
 
 
 @pytest.mark.parametrize(

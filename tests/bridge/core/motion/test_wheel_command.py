@@ -64,20 +64,6 @@ def test_a_stop_forgets_what_was_learnt_and_only_falls(world: World) -> None:
     assert (told(world), wheel(world)) == (0.0, AT_REST)
 
 
-def test_without_torque_the_wheels_are_told_nothing(world: World) -> None:
-    world.op("disarm")
-    world.until(Mode.DISARMED)
-    assert (told(world), wheel(world), world.state.motion.right) == (0.0, AT_REST, AT_REST)
-
-
-def test_standing_powered_with_a_wheel_that_creeps_tells_nothing() -> None:
-    world = World().armed()
-    world.drive.runs_on, world.drive.speeds = True, (0.1, 0.1)
-    world.run(0.5)
-    assert world.is_in(Mode.HOLD)
-    assert (told(world), wheel(world)) == (0.0, AT_REST)
-
-
 @pytest.mark.parametrize("start", ["active", "teleop", "stopping_by_person", "stopping_by_row"])
 def test_after_a_freeze_nothing_is_ramped_down(start: str) -> None:
     """A bridge that froze for 3 s once told a robot that stood to go on at 0.07 m/s."""
@@ -124,17 +110,6 @@ def test_torque_is_on_where_it_may_move_or_has_to_stop(start: str, powered: bool
         assert after == LimiterState()
         told: tuple[object, ...] = (tick.s.motion.free_m, tick.s.motion.bound_by, tick.s.motion.cap)
         assert told == (None, "unpowered", 0.0)
-
-
-def test_without_a_path_or_a_place_nothing_is_followed() -> None:
-    tick = at()
-    assert wheel_command.follow_horizon(tick) is None  # no place in this tick yet
-    tick.robot_in_map = tick.s.odometry.base_in_odom
-    answer = wheel_command.follow_horizon(tick)
-    assert answer is not None
-    assert answer.target != STILL
-    tick.s.leg = replace(tick.s.leg, path=None)
-    assert wheel_command.follow_horizon(tick) is None
 
 
 @table(("start", "arrives"), [("teleop", False), ("active_external", False)])

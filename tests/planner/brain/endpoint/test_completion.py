@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 from functools import partial
 from pathlib import Path
@@ -14,10 +13,6 @@ import pytest
 from planner.brain import (
     BadPlan,
     BrainDown,
-    FallbackBrain,
-    OfflineBrain,
-    ThinkRequest,
-    ThinkResult,
 )
 from planner.brain.endpoint.completion import read_reply
 from planner.plan import GoTo, StepPlan, Vocabulary
@@ -68,25 +63,6 @@ def as_answer(exchange: Exchange) -> httpx.Response:
     if exchange.get("retry_after"):
         headers["retry-after"] = exchange["retry_after"][0]
     return raw(exchange["response_body"].encode(), exchange["status"], headers)
-
-
-def test_every_recorded_failure_falls_back(
-    exchanges: list[Exchange], home: Vocabulary, tmp_path: Path
-) -> None:
-    """Whatever the server says, the robot goes where the person said, by the offline brain."""
-    for exchange in exchanges:
-        server = Server(partial(as_answer, exchange))
-        model = brain(server, tmp_path, timeout_s=5.0, name=exchange["file"])
-        both = FallbackBrain(model, OfflineBrain())
-        thought = run(both, home)
-        assert thought.plan == StepPlan(steps=(GoTo(place="kitchen"),))
-        assert thought.brain.name == "offline"
-        assert thought.brain.fallback_from == exchange["file"]
-        assert thought.brain.fallback_message is not None
-
-
-def run(both: FallbackBrain, home: Vocabulary) -> ThinkResult:
-    return asyncio.run(both.think(ThinkRequest(text="go to the kitchen", vocabulary=home)))
 
 
 def test_every_recorded_answer_may_be_the_first_of_two(

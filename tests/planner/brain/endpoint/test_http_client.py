@@ -63,14 +63,10 @@ ERROR = {"error": {"message": "mock"}}
         (lambda: answer(ERROR, 429, headers={"retry-after": "-1"}), "rate_limited", 1),
         (lambda: answer(ERROR, 429, headers={"retry-after": "Wed, 21 Oct"}), "rate_limited", 1),
         (lambda: raw(b"", 302, {"location": "http://169.254.169.254/"}), "redirect", 1),
-        (lambda: raw(b"", 307, {"location": "http://127.0.0.1:1/"}), "redirect", 1),
-        (lambda: raw(b"", 308, {"location": "http://127.0.0.1:1/v1"}), "redirect", 1),
         (lambda: httpx.Response(401, stream=Endless(b"a" * 65_536)), "bad_key", 1),
         (lambda: raw(b"<html>500</html>", 502), "server_error", 2),
         (lambda: raw(b""), "bad_reply", 1),
         (lambda: raw(b"null"), "bad_reply", 1),
-        (lambda: raw(b"[" * 100_000), "bad_reply", 1),
-        (lambda: raw(b'{"choices":[NaN]}'), "bad_reply", 1),
         (lambda: raw(b'\xff\xfe{"choices":[]}'), "bad_reply", 1),
         (lambda: answer({"choices": []}), "bad_reply", 1),
         (lambda: answer({"choices": {"0": {}}}), "bad_reply", 1),
@@ -105,41 +101,6 @@ def test_every_failure_has_its_reason(
     with pytest.raises(BrainDown) as down:
         think(brain(server, tmp_path, timeout_s=5.0), home)
     assert (down.value.why, len(server.requests)) == (why, calls)
-
-
-@pytest.mark.parametrize(
-    "first",
-    [
-        answer(ERROR, 500),
-        answer(ERROR, 503, headers={"retry-after": "0.05"}),
-        answer(ERROR, 429, headers={"retry-after": "0"}),
-        httpx.RemoteProtocolError("the idle connection was closed"),
-    ],
-)
-def test_a_short_trouble_costs_one_more_try(
-    first: httpx.Response | Exception, home: Vocabulary, tmp_path: Path
-) -> None:
-    server = Server(first, wrote(GO))
-    assert think(brain(server, tmp_path), home).plan.kind == "plan"
-    assert len(server.requests) == 2
-
-
-def test_an_endless_reply_is_cut_at_its_bound(home: Vocabulary, tmp_path: Path) -> None:
-    stream = Endless(b"a" * 65_536)
-    server = Server(lambda: httpx.Response(200, stream=stream))
-    with pytest.raises(BrainDown) as down:
-        think(brain(server, tmp_path), home)
-    assert down.value.why == "too_large"
-    assert stream.sent <= MAX_REPLY_BYTES + 2 * 65_536
-
-
-def test_a_drip_is_cut_by_the_deadline(home: Vocabulary, tmp_path: Path) -> None:
-    server = Server(lambda: httpx.Response(200, stream=Endless(b" ", pause_s=0.01)))
-    began_s = time.monotonic()
-    with pytest.raises(BrainDown) as down:
-        think(brain(server, tmp_path, timeout_s=0.5), home)
-    assert down.value.why == "timeout"
-    assert time.monotonic() - began_s >= 0.5
 
 
 @pytest.mark.parametrize(
@@ -234,12 +195,9 @@ def _thought(made: EndpointBrain, home: Vocabulary) -> tuple[str, str]:
         (said(b"HTTP/1.1 302 Found\r\nLocation: http://127.0.0.1:1/\r\n\r\n"), "redirect"),
         (said(b"HTTP/1.1 307 T\r\nLocation: file:///etc/passwd\r\n\r\n"), "redirect"),
         (said(b"HTTP/1.1 308 P\r\nLocation: http://169.254.169.254/\r\n\r\n"), "redirect"),
-        (said(ok(DEEP.encode())), "bad_reply"),
         (said(ok(b'{"choices":' + DEEP.encode() + b"}")), "bad_reply"),
         (said(ok(b'{"choices":[{"message":{"content":NaN}}]}')), "bad_reply"),
         (said(ok(b'{"choices":1e999}')), "bad_reply"),
-        (said(ok(b"7")), "bad_reply"),
-        (said(ok(b"\x00" * 900_000)), "bad_reply"),
         (said(ok(b"x", b"Content-Encoding: gzip")), "bad_reply"),
         (without_end(EVENTS, b": " + CHUNK + b"\n"), "too_large"),
         (without_end(EVENTS, b"data: " + CHUNK), "too_large"),
@@ -257,7 +215,6 @@ def _thought(made: EndpointBrain, home: Vocabulary) -> tuple[str, str]:
         (said(completion('{"kind":"plan","steps":[{"kind":"go_to","place":["kitchen"]}]}')),
          "rejected"),
         (said(completion('{"kind":"plan","steps":[{"kind":"go_to_map","x":1}]}')), "rejected"),
-        (said(completion("{" * 400_000)), "rejected"),
     ],
 )  # fmt: skip
 def test_every_server_ends_typed(

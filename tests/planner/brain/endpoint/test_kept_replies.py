@@ -69,18 +69,6 @@ def think(
     return collector.replies_of("g1").replies
 
 
-def test_a_plan_is_kept_as_the_model_wrote_it(home: Vocabulary, tmp_path: Path) -> None:
-    text = f"Here it is:\n{GO}"
-    (reply,) = think(tmp_path, home, text)
-    assert (reply.text, reply.model, reply.turn) == (text, "m", ReplyTurn.PLAN)
-    assert (reply.used, reply.cut) == (True, False)
-
-
-def test_by_default_nothing_is_kept(home: Vocabulary, tmp_path: Path) -> None:
-    assert settings().keep_replies == 0
-    assert think(tmp_path, home, GO, most=settings().keep_replies) == ()
-
-
 def test_a_repair_stands_behind_what_it_repairs(home: Vocabulary, tmp_path: Path) -> None:
     first, second = think(tmp_path, home, BAD, GO)
     assert (first.text, first.turn, first.used) == (BAD, ReplyTurn.PLAN, False)

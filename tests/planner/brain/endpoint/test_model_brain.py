@@ -18,10 +18,8 @@ from planner.plan import (
     Bilingual,
     Clarify,
     Code,
-    GoTo,
     Plan,
     Refuse,
-    StepPlan,
     Vocabulary,
 )
 from tests.planner.brain.endpoint.servers import (
@@ -42,15 +40,6 @@ BAD = '{"kind":"plan","steps":[{"kind":"go_to","place":"wine_cellar"}]}'
 
 def refused(words: str) -> httpx.Response:
     return answer({"error": {"message": words}}, 400)
-
-
-def test_one_call_makes_a_plan_and_says_by_which_prompt(home: Vocabulary, tmp_path: Path) -> None:
-    server = Server(wrote(GO))
-    thought = think(brain(server, tmp_path), home)
-    assert thought.plan == StepPlan(steps=(GoTo(place="kitchen"),))
-    assert (thought.calls, thought.tokens, thought.brain.name) == (1, 11, "m")
-    assert thought.brain.prompt is not None
-    assert thought.brain.prompt.startswith("plan/10@")
 
 
 def test_what_is_asked(home: Vocabulary, tmp_path: Path) -> None:

@@ -25,14 +25,13 @@ from planner.plan import (
     Say,
     StepPlan,
     Vocabulary,
-    Wait,
     check_plan,
     places_of,
 )
 from pons.mock_llm.replies import GARBAGE
 from tests.planner.brain.conftest import HOME
 from tests.planner.brain.endpoint.servers import GO
-from tests.pons.mock_llm.bad_replies import HOSTILE_COUNT, hallucinate, hostile
+from tests.pons.mock_llm.bad_replies import HOSTILE_COUNT, hostile
 
 NO = '{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}'
 KITCHEN = StepPlan(steps=(GoTo(place="kitchen"),))
@@ -156,13 +155,6 @@ def test_a_name_of_two_places_is_neither() -> None:
     assert "bed_1, bed_2" in str(judged)
 
 
-def test_a_place_that_does_not_exist_is_named_with_those_that_do() -> None:
-    judged = judge(json.dumps(hallucinate(json.loads(GO))), HOME)
-    assert isinstance(judged, Unusable)
-    assert "unknown_place: wine_cellar" in str(judged)
-    assert "front_door" in str(judged)
-
-
 def test_a_step_that_needs_a_camera_is_left_to_the_mission() -> None:
     text = '{"kind":"plan","steps":[{"kind":"find","object":"cup","place":"kitchen"}]}'
     assert judge(text, HOME) == StepPlan(steps=(Find(object="cup", place="kitchen"),))
@@ -218,13 +210,6 @@ def test_question_and_refusal_keep_code_and_options() -> None:
     no = judge('{"kind":"refuse","code":"unsafe","en":"No.","zh":"不。"}', HOME)
     assert isinstance(no, Refuse)
     assert (no.code, no.reason.zh) == (Code.UNSAFE, "不。")
-
-
-def test_without_places_only_steps_without_places_are_plans() -> None:
-    nowhere = Vocabulary()
-    assert isinstance(judge(GO, nowhere), Unusable)
-    wait = '{"kind":"plan","steps":[{"kind":"wait","seconds":3}]}'
-    assert judge(wait, nowhere) == StepPlan(steps=(Wait(seconds=3.0),))
 
 
 _JSON = st.recursive(
