@@ -14,7 +14,7 @@ from planner.language.schedule.parts import OnceDay
 from planner.orders.decision import SPOKEN_S, KeptOrders, NoneSuch, OrderEdits, WhichOrder, decide
 from planner.orders.errors import OrderRefusal
 from planner.orders.order import StandingOrder
-from planner.orders.rule import coming_runs, days_left_out, find_day, next_run, runs_on, upcoming
+from planner.orders.rule import coming_runs, days_left_out, find_day, runs_on, upcoming
 from planner.orders.scheduler import OrderBook, put
 from planner.orders.store import OrderStore
 from planner.plan import Clarify
@@ -198,11 +198,6 @@ def test_days_that_are_over_are_forgotten_as_another_is_left_out() -> None:
     assert days_left_out(kept, TOMORROW, NOON_UNIX_S, BERLIN) == [TOMORROW, SUNDAY]
 
 
-def test_an_order_all_of_whose_runs_are_left_out_is_not_due() -> None:
-    once = left_out(AtRule(unix_s=NOON_UNIX_S + DAY_S), TOMORROW)
-    assert next_run(once, NOON_UNIX_S, BERLIN) is None
-
-
 def test_a_weekday_is_the_coming_one() -> None:
     assert find_day(OnceDay(weekday=6), NOON_UNIX_S, BERLIN) == SUNDAY
     assert find_day(OnceDay(ahead=0), NOON_UNIX_S, BERLIN) == TODAY
@@ -268,13 +263,6 @@ async def test_of_several_a_person_says_which(tmp_path: Path, text: str) -> None
     assert not any(o.skipped for o in kept.orders.keeper.book.orders.values())
     await say(kept, asked.options[1].text)
     assert kept.orders.keeper.book.orders["o2"].skipped
-
-
-async def test_what_fits_no_order_is_left_to_the_brain(tmp_path: Path) -> None:
-    kept = await kept_in(tmp_path)
-    assert await take(kept, "don't go to the kitchen tomorrow") is None
-    await say(kept, "every day at seven wake me up")
-    assert await take(kept, "don't go to the kitchen tomorrow") is None
 
 
 def test_an_order_of_an_older_program_leaves_no_day_out(tmp_path: Path) -> None:

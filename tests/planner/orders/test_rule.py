@@ -13,17 +13,15 @@ from hypothesis import strategies as st
 
 from planner.orders.errors import OrderRefusal
 from planner.orders.new_order import OrderQuestion, order_of_text
-from planner.orders.rule import JUST_OVER_DAYS, is_quiet, judge, next_due, settle, upcoming
+from planner.orders.rule import JUST_OVER_DAYS, is_quiet, next_due, settle, upcoming
 from planner.plan import QuietHours
 from planner.plan.timing import (
     AtRule,
     CronRule,
     DayTime,
-    EventRule,
     EveryRule,
     InRule,
     Rule,
-    WorldEvent,
 )
 from tests.planner.orders.fakes import BERLIN, NOON_UNIX_S, MovedClocks, kept_in
 
@@ -33,27 +31,6 @@ ZONES = [BERLIN, ZoneInfo("America/New_York"), ZoneInfo("Australia/Lord_Howe"), 
 
 def at(text: str, fold: int = 0) -> float:
     return datetime.fromisoformat(text).replace(tzinfo=BERLIN, fold=fold).timestamp()
-
-
-def shown(rule: Rule, after_s: float, count: int) -> list[str]:
-    due = upcoming(rule, after_s, BERLIN, count)
-    return [datetime.fromtimestamp(s, BERLIN).isoformat(timespec="minutes") for s in due]
-
-
-def test_a_time_that_a_spring_night_leaves_out_is_due_as_it_ends() -> None:
-    rule = CronRule(cron="30 2 * * *")
-    assert shown(rule, at("2027-03-27T12:00"), 2) == [
-        "2027-03-28T03:00+02:00",
-        "2027-03-29T02:30+02:00",
-    ]
-
-
-def test_a_time_that_an_autumn_night_has_twice_is_due_once() -> None:
-    rule = CronRule(cron="30 2 * * *")
-    after = at("2027-10-30T12:00")
-    assert shown(rule, after, 2) == ["2027-10-31T02:30+02:00", "2027-11-01T02:30+01:00"]
-    second = at("2027-10-31T02:15", fold=1)
-    assert shown(rule, second, 1) == ["2027-11-01T02:30+01:00"]
 
 
 def test_every_hour_is_due_each_hour_that_passes() -> None:
@@ -143,12 +120,6 @@ def test_a_time_that_the_clock_skips_on_that_day_is_refused_for_once() -> None:
     assert "02:30" in refused.value.message.en
     twice = settle(DayTime(hour=2, minute=30, days_ahead=1), at("2027-10-30T12:00"), BERLIN)
     assert twice == AtRule(unix_s=at("2027-10-31T02:30", fold=0))
-
-
-def test_events_have_no_time() -> None:
-    rule = EventRule(event=WorldEvent.PERSON_SEEN)
-    judge(rule, NOON_UNIX_S, BERLIN)
-    assert next_due(rule, NOON_UNIX_S, BERLIN) is None
 
 
 def test_quiet_hours_go_over_midnight() -> None:

@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.orders.order import FiringState
 from planner.orders.rule import is_quiet, next_due, settle
 from planner.orders.scheduler import (
     BACK_S,
@@ -21,13 +20,9 @@ from planner.orders.scheduler import (
     STEP_S,
     UNSET_S,
     WAS_OFF,
-    ClockReading,
-    Fire,
     OrderBook,
     RobotView,
     add,
-    put,
-    tick,
 )
 from planner.plan import QuietHours
 from planner.plan.timing import AtRule, CronRule, EveryRule, InRule, Rule, WorldEvent
@@ -81,27 +76,6 @@ def test_every_run_is_fired_or_told_exactly_once(
     assert all(0.0 <= now - due <= LATE_S for _, due, now in life.fired)
 
 
-@given(_RULES, st.lists(st.floats(-90_000.0, 90_000.0), max_size=12), st.floats(0.5, 400.0))
-def test_no_jump_of_the_clock_fires_one_run_twice(
-    rule: Rule, jumps: list[float], between_s: float
-) -> None:
-    life = Player({"o1": order(1, rule)})
-    life.start()
-    life.tick()
-    for jump_s in jumps:
-        life.pass_s(between_s)
-        life.tick()
-        life.unix_s += jump_s
-        life.tick()
-        for _ in range(3):
-            life.pass_s(0.5)
-            life.tick()
-    due = [at for _, at, _ in life.fired]
-    assert len(due) == len(set(due))
-    again = [now for _, _, now in life.fired]
-    assert len(again) <= 1 + len(jumps) * 2
-
-
 def test_a_relative_order_given_on_an_unset_clock_keeps_its_time() -> None:
     life = Player({})
     life.book = replace(OrderBook(BERLIN), floor_unix_s=NOON_UNIX_S + 5000.0)
@@ -149,16 +123,6 @@ def test_an_event_counts_only_in_its_hours() -> None:
     life.pass_s(11 * 3600.0)
     life.tick(seen)
     assert [name for name, *_ in life.fired] == ["o1", "o2"], "at eleven at night"
-
-
-def test_the_same_arguments_give_the_same_answer() -> None:
-    book = put(OrderBook(BERLIN), order(1, CronRule(cron="0 13 * * *")))
-    book, _ = tick(book, RobotView(), ClockReading(NOON_UNIX_S, 1.0))
-    now = ClockReading(NOON_UNIX_S + 3600.2, 3601.2)
-    assert tick(book, RobotView(), now) == tick(book, RobotView(), now)
-    _, [fire] = tick(book, RobotView(), now)
-    assert isinstance(fire, Fire)
-    assert fire.firing.state is FiringState.BEGUN
 
 
 HOUR_S, DAY_S, YEAR_S = 3600.0, 86_400.0, 365.0 * 86_400.0

@@ -259,18 +259,6 @@ async def test_which_one_is_answered_by_its_place_in_the_list(tmp_path: Path) ->
         assert made.together.bridge.waypoints == []
 
 
-async def test_a_stop_word_beside_a_pause_stops_first(tmp_path: Path) -> None:
-    async with home(tmp_path, KITCHEN) as made:
-        await made.say("every evening at eight go to the kitchen")
-        drive = await made.together.missions.submit("go to the kitchen")
-        await made.together.reach(drive.id, GoalState.RUNNING)
-        await made.together.until(lambda: made.together.bridge.horizon is not None)
-        stopped = await made.say("stop going to the kitchen in the evening")
-        assert stopped.outcome is not None
-        assert stopped.outcome.code is Code.STOPPED
-        assert made.together.missions.goal(drive.id).state is GoalState.PAUSED
-
-
 async def test_a_free_answer_never_drives_at_once(tmp_path: Path) -> None:
     which = Clarify(code=Code.AMBIGUOUS, question=Bilingual(en="Which?", zh="哪个？"))
     async with home(tmp_path, which, KITCHEN) as made:
