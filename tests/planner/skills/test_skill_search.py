@@ -339,24 +339,6 @@ A_TABLE, A_BLUE_CHAIR = WantedObject("table"), WantedObject("chair", "blue")
 
 
 @pytest.mark.parametrize(
-    ("words", "wanted"),
-    [
-        ("the bottle on the table", WantedObject("bottle", None, ON, A_TABLE)),
-        ("red cup next to a blue chair", WantedObject("cup", "red", NEAR, A_BLUE_CHAIR)),
-        ("box under the desk", WantedObject("box", None, UNDER, A_TABLE)),
-        ("桌子上的瓶子", WantedObject("bottle", None, ON, A_TABLE)),
-        ("椅子旁边的红色的杯子", WantedObject("cup", "red", NEAR, WantedObject("chair"))),
-        ("桌子下面的箱子", WantedObject("box", None, UNDER, A_TABLE)),
-    ],
-)
-def test_a_neighbour_is_read_in_both_languages(words: str, wanted: WantedObject) -> None:
-    for language in Language:
-        assert read_object(words, language, CLASSES) == wanted
-    assert not picks_out(words, "go_to_object", Language.EN, CLASSES)
-    assert picks_out(words, "follow", Language.EN, CLASSES), "who walks has no neighbour"
-
-
-@pytest.mark.parametrize(
     "words",
     [
         "bottle on the shelf", "cup on the small table", "the other cup on the table",

@@ -168,22 +168,6 @@ def test_nobody_is_called_against_what_forbids_it(against: str) -> None:
 @table(
     ("start", "stands", "at_end", "mode"),
     [
-        ("active", True, True, Mode.ACTIVE),  # its horizon is not the last of the leg
-        ("active", False, True, Mode.ACTIVE),
-        ("active_external", True, False, Mode.ACTIVE),  # still called
-        ("teleop", True, True, Mode.TELEOP),
-    ],
-)
-def test_nobody_arrives_before_the_end(start: str, stands: bool, at_end: bool, mode: Mode) -> None:
-    tick = at(start)
-    tick.s.drive.still_since_s = tick.now_s if stands else None
-    arrive(tick, at_end=at_end)
-    assert tick.s.mode is mode
-
-
-@table(
-    ("start", "stands", "at_end", "mode"),
-    [
         ("active", True, True, Mode.HOLD),
         ("active", True, False, Mode.ACTIVE),
         ("active", False, True, Mode.ACTIVE),
@@ -220,15 +204,6 @@ def test_each_detector_that_a_hazard_names_is_run_and_no_other() -> None:
     tick.s.drive.reborn_s = tick.now_s
     decide_module.detect(tick)
     assert "DRIVE_REBOOT.0" in tick.s.rows
-
-
-@table("start", ["hold", "active", "teleop"])
-def test_whoever_follows_is_stopped_by_what_must_stop(start: str) -> None:
-    tick = at(start)
-    tick.s.rows = {"DRIVE_REBOOT.0": RowUp(tick.now_s, tick.now_s, "by hand")}
-    before = tick.s.mode.value
-    decide(tick)
-    assert tick.events[0] == ("mode", f"{before} STOPPING drive_reboot")
 
 
 @table(("resumes", "mode"), [(True, Mode.ACTIVE), (False, Mode.STOPPING)])

@@ -155,22 +155,6 @@ def test_arming_says_what_it_lacks(spoil: Callable[[World], None], code: str) ->
     assert world.is_in(Mode.DISARMED)
 
 
-def test_arming_needs_a_standing_robot_and_a_free_stick() -> None:
-    world = World().ready()
-    world.drive.runs_on, world.drive.speeds = True, (1.0, 1.0)
-    world.run(0.1)
-    assert world.asked("arm") == "not_standing"
-    world.drive.runs_on = False
-    world.run(1.5)
-    world.teleop(0.3, held=True)
-    world.tick()
-    assert world.asked("arm") == "stick_not_neutral"
-    world.run(0.3)
-    world.op("arm")
-    world.tick()
-    assert world.is_in(Mode.HOLD)
-
-
 def test_a_lost_pose_or_brain_keeps_nobody_from_arming() -> None:
     world = World(planner=None, localization_silent=True).ready()
     world.op("arm")
@@ -455,19 +439,6 @@ def test_a_full_disk_stops_nobody_and_is_told_once() -> None:
     world.run(0.2)
     assert waiting(world) == ()
     assert [event.code for event in world.events].count("recorder_up") == 1
-
-
-def test_arming_is_refused_by_code_and_sentence_until_there_is_room() -> None:
-    world = unrecorded(World().ready())
-    world.run(0.4)
-    assert "disk_full" in waiting(world)
-    assert world.asked("arm") == "disk_full"
-    details = [item.answer.detail for item in world.state.operator.answers]
-    assert REASON in details
-    assert world.is_in(Mode.DISARMED)
-    world.recorder_ok, world.recorder_says = True, ""
-    world.run(0.4)
-    assert world.asked("arm") == "ok"
 
 
 def test_a_recorder_that_does_not_say_why_is_down() -> None:

@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 
 from bridge.core.modes import teleop
-from bridge.core.modes.teleop import CAUSAL_S
 from bridge.core.tick_context import TickContext
 from tests.bridge.core.reached import at, reached
 from tests.bridge.core.table import table
@@ -148,15 +147,6 @@ def test_a_stick_moves_nothing_that_may_not_move(mode: str) -> None:
     world.teleop(0.3, held=True, source="other")
     assert dropped(world, "teleop_not_now")
     assert not world.is_in(Mode.TELEOP)
-
-
-def test_a_silent_stick_lets_go() -> None:
-    world = reached("teleop")
-    stick = world.state.stick
-    world.state.stick = replace(stick, sent_s=world.now_s - CAUSAL_S)
-    world.tick()
-    assert world.is_in(Mode.HOLD)
-    assert world.state.stick.source_id is None
 
 
 def test_a_hand_that_a_new_epoch_has_voided_leaves_the_mode_too() -> None:
