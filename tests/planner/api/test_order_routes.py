@@ -9,14 +9,17 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from planner.api import Access
 from planner.orders.order import MAX_ORDERS, Firing, FiringState
 from planner.orders.store import OrderStore
 from planner.plan import QuietHours
 from planner.plan.timing import CronRule
 from planner.state_database import StateDatabase
 from tests.planner.api.fakes import FakeServices
+from tests.planner.api.served import client_of
 from tests.planner.orders.fakes import NOON_UNIX_S, FakeMissions, MovedClocks, standing_orders
 
+VIEWER = {"Authorization": "Bearer viewer-token-viewer"}
 DAY_BEFORE_SUMMER_UNIX_S = 1_806_145_200.0
 """2027-03-27 12:00 in Berlin: at 02:00 of the next night clocks go on to 03:00."""
 
@@ -248,6 +251,28 @@ def test_a_time_that_tomorrow_skips_is_refused(
     assert "02:30" in told["en"]
     assert "02:30" in told["zh"]
     assert services.orders.keeper.book.orders == {}
+
+
+def test_a_viewer_may_look_and_change_nothing(services: FakeServices) -> None:
+    access = Access(
+        "127.0.0.1", hosts=frozenset({"testserver", "127.0.0.1"}),
+        operator_token="operator-token-operator", viewer_token="viewer-token-viewer",
+    )  # fmt: skip
+    with client_of(services, access) as client:
+        assert client.get("/v1/orders", headers=VIEWER).status_code == 200
+        for method, path in (
+            ("POST", "/v1/orders"),
+            ("POST", "/v1/orders/o1/pause"),
+            ("POST", "/v1/orders/o1/resume"),
+            ("DELETE", "/v1/orders/o1"),
+            ("POST", "/v1/goals/g1/answer"),
+            ("POST", "/v1/goals/g1/confirm"),
+        ):
+            body = {"text": "every day at eight go to the kitchen"}
+            answer = client.request(method, path, json=body, headers=VIEWER)
+            assert (answer.status_code, answer.json()["code"]) == (403, "operator_needed")
+    assert services.orders.keeper.book.orders == {}
+    assert services.goals.calls == []
 
 
 @pytest.mark.parametrize("order_id", ["o7", "kitchen", "o" + "1" * 40])
