@@ -41,11 +41,6 @@ def test_wheels_and_twist_are_inverse(left: float, right: float) -> None:
     assert back.right_radps == pytest.approx(right, abs=1e-9)
 
 
-def test_what_is_within_limits_passes_unchanged() -> None:
-    asked = Twist2(0.5, 1.0)
-    assert saturate(asked, BASE, LIMITS) is asked
-
-
 @given(anything, anything, st.floats(0, 1))
 def test_no_input_exceeds_a_limit(v: float, w: float, cap: float) -> None:
     out = saturate(Twist2(v, w), BASE, LIMITS, cap)
@@ -271,15 +266,6 @@ def test_a_reading_rolls_the_robot_by_what_its_wheels_turned(
     assert after.turned_rad == pytest.approx(20.0 + abs(rolls[1] - rolls[0]) / 0.8)
     assert after.jumps == 5 + jumps
     assert (after.left_rad, after.right_rad) == (None if left != left else left, right)
-
-
-@table("had", [(None, 2.0), (1.0, None), (None, None)])
-def test_without_a_zero_nothing_moves(had: tuple[float | None, float | None]) -> None:
-    after = advance(OdometryState(Pose2(3, 4, 1), STILL, *had), reading(1.5, 2.5), FRAME)
-    assert after.base_in_odom == Pose2(3, 4, 1)
-    assert (after.left_rad, after.right_rad, after.jumps) == (1.5, 2.5, 0)
-    far = advance(OdometryState(), reading(1e9, -1e9 - 1.0), FRAME)
-    assert (far.left_rad, far.right_rad) == (1e9, None)
 
 
 def test_what_is_metered_stays_a_number() -> None:

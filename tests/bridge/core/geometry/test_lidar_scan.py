@@ -54,13 +54,6 @@ def test_the_lidar_stands_where_the_robot_says() -> None:
     assert made.nearest_m <= 0.9
 
 
-def test_an_empty_scan_is_a_taken_nothing() -> None:
-    made = taken([])
-    assert (made.beams, made.returns, made.nearest_m) == (0, 0, None)
-    assert not made.sector(0.0, 1.0).is_known
-    assert not made.sector(0.0, 1.0).covered
-
-
 @given(
     st.lists(st.none() | st.floats(0, 12), max_size=60),
     st.floats(-6, 6),

@@ -29,12 +29,6 @@ def test_curves_are_taken_slower(curve: float, speed: float) -> None:
     assert regulate(1.0, curve, 2.7, 0.25) == pytest.approx(speed, abs=0.01)
 
 
-def test_nothing_is_the_empty_path() -> None:
-    path = prepare((), LIMITS)
-    assert path.length_m == 0.0
-    assert path.heading_rad is None
-
-
 @given(st.lists(st.tuples(st.floats(-9, 9), st.floats(-9, 9), st.floats(0.05, 2)), max_size=50))
 def test_speeds_can_be_braked_from_point_to_point(points: list[tuple[float, float, float]]) -> None:
     path = prepare([point(*p) for p in points], LIMITS)

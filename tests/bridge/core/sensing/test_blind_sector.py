@@ -183,14 +183,6 @@ def test_an_open_side_beyond_the_lidars_reach_is_free() -> None:
     assert room.drive(3.0, 0.05) == 0.0
 
 
-def test_scans_long_apart_tell_nothing_of_each_other() -> None:
-    room = Room()
-    room.scan(3)
-    room.hole_rad = (0.0, radians(45))
-    room.now_s += 0.4
-    assert room.scan(9).dead == 0
-
-
 def test_a_suspicion_ends_where_the_scans_do() -> None:
     room = Room()
     room.scan(3)

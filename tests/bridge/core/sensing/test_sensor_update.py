@@ -131,34 +131,6 @@ def scan_of(tick: TickContext, **change: Any) -> Scan:
     return newest.model_copy(update={"seq": newest.seq + 1, "stamp_s": 3.0} | change)
 
 
-@table(
-    ("boot_id", "later", "heard"),
-    [("l0", 1, True), ("l0", 0, False), ("l0", -1, False), ("l1", 0, True), ("l1", -5, True)],
-)
-def test_a_scan_counts_once(boot_id: str, later: int, heard: bool) -> None:
-    tick = at()
-    before = tick.s.lidar
-    assert before.newest is not None
-    scan = scan_of(tick, boot_id=boot_id, seq=before.newest.seq + later)
-    tick.inbox = replace(tick.inbox, scan=scan)
-    sensor_update.sense(tick)
-    if heard:
-        assert (tick.s.lidar.newest, tick.s.lidar.received_s) == (scan, NOW_S)
-    else:
-        assert tick.s.lidar is before
-        assert tick.reasons == ["scan_old"]
-
-
-@table(("same_host", "x_m"), [(True, 3.0), (False, 5.0)])
-def test_a_scan_of_another_host_is_as_of_now(same_host: bool, x_m: float) -> None:
-    tick = at(sensors_same_host=same_host)
-    tick.s.trail = tuple((float(i), Pose2(float(i), 0.0, 0.0)) for i in range(2, 6))
-    sensor_update._hear_scan(tick, scan_of(tick))
-    picture = tick.s.lidar.picture
-    assert picture is not None
-    assert picture.base_in_odom == Pose2(x_m, 0.0, 0.0)
-
-
 @table(("again", "equal", "from_m"), [(True, 4, 1.5), (False, 1, 7.0)])
 def test_scans_that_are_the_same_again_are_counted(again: bool, equal: int, from_m: float) -> None:
     tick = at()
@@ -361,26 +333,6 @@ def test_a_drift_of_just_what_odometry_may_err_is_no_jump() -> None:
             )
             tick.s.pose = replace(tick.s.pose, good=placed(), drift=had)
             assert sensor_update._hear_localization(tick, placed(seq=2)) is jumps
-
-
-def test_no_more_jumps_are_remembered_than_count() -> None:
-    tick = at()
-    tick.s.pose = replace(tick.s.pose, good=placed(), drift=Drift())
-    for times in range(1, 6):
-        tick.now_s = NOW_S + times
-        side = placed(odom_in_map=Pose2(times % 2, 0.0, 0.0))
-        assert sensor_update._hear_localization(tick, side)
-        newest = tuple(NOW_S + one for one in range(max(1, times - 2), times + 1))
-        assert tick.s.pose.drift.jumps_at_s == newest
-
-
-def test_corrections_add_up_in_each_axis_while_nothing_moves() -> None:
-    odometry = replace(at().s.odometry, travelled_m=3.0, turned_rad=2.0)
-    had = Drift(0.1, 0.05, 0.02, travelled_m=3.0, turned_rad=2.0, jumps_at_s=(1.0,))
-    pose = PoseMemory(drift=had)
-    after = sensor_update._add_drift(pose, 0.01, -0.02, 0.03, odometry)
-    assert (after.x_m, after.y_m, after.yaw_rad) == pytest.approx((0.11, 0.03, 0.05))
-    assert (after.travelled_m, after.turned_rad, after.jumps_at_s) == (3.0, 2.0, (1.0,))
 
 
 @table(

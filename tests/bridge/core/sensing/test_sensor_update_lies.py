@@ -298,11 +298,3 @@ def test_an_echo_of_what_was_never_sent_stops_and_needs_a_reset(start: str) -> N
         assert world.verdict(reset) == "ok"
     world.arm()
     assert not raised(world, "DRIVE_FOREIGN.0")
-
-
-def test_an_echo_of_the_newest_command_is_no_stranger() -> None:
-    world = reached("hold")
-    world.run(0.5)
-    assert world.state.drive.ahead == 0
-    assert world.drive.echo_seq == world.state.command_seq
-    assert not raised(world, "DRIVE_FOREIGN.0")

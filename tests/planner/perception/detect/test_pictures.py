@@ -113,13 +113,6 @@ def test_without_anything_measured_things_are_found_without_depth(detector: Onnx
     assert result.depth_lost in SKIPS
 
 
-def test_after_every_bad_picture_a_good_one_is_seen(detector: OnnxDetector) -> None:
-    for data in (JPEG, PNG, encoded(".png", np.dstack((COLOR, COLOR[:, :, 0])))):
-        result = detector.look(data, DEEP, (64, 48))
-        assert (result.skipped, result.width, result.height) == (None, 64, 48)
-        assert [it.label for it in result.detections] == ["cup"]
-
-
 def test_a_model_that_fails_on_a_picture_skips_it(detector: OnnxDetector) -> None:
     def fail(_: object) -> list[Array]:
         raise RuntimeError("out of memory")
