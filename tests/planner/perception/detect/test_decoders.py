@@ -108,6 +108,16 @@ def test_each_layout_shows_the_same_thing(case: Case, tmp_path: Path) -> None:
     assert found[0].color == "red"
 
 
+@pytest.mark.parametrize("case", CASES, ids=IDS)
+def test_of_several_boxes_for_one_thing_the_strongest_stays(case: Case, tmp_path: Path) -> None:
+    shifted = tuple(side + 2.0 for side in THING)
+    seen = [Seen(in_input(case, shifted), 1, 0.6), Seen(in_input(case), 1, 0.9)]
+    looking = detector(case, tmp_path, case.layout(seen))
+    found = looking.look(tiny.jpeg(WIDTH, HEIGHT)).detections
+    suppressed = ALL[case.decoder].SUPPRESS
+    assert [round(it.score, 2) for it in found] == ([0.9] if suppressed else [0.9, 0.6])
+
+
 def looked(looking: OnnxDetector, outputs: Iterable[Array]) -> tuple[Detection, ...]:
     """Return what it sees where its model puts out something else."""
     given = list(outputs)
