@@ -19,6 +19,7 @@ from planner.plan import (
     GoalState,
     Language,
     Plan,
+    QuietHours,
     Refuse,
     words_of,
 )
@@ -112,6 +113,13 @@ async def test_a_refused_correction_changes_nothing(tmp_path: Path, text: str, p
     before = orders(kept)
     assert part in await say(kept, text)
     assert orders(kept) == before
+
+
+async def test_a_correction_into_the_quiet_hours_is_refused(tmp_path: Path) -> None:
+    kept = await kept_in(tmp_path, quiet=QuietHours.read("22:00-07:00"))
+    await say(kept, "every evening at eight say hello")
+    assert "quiet hours" in await say(kept, "make it half past ten")
+    assert cron(kept) == "0 20 * * *"
 
 
 async def test_the_order_that_was_spoken_of_last_is_meant(tmp_path: Path) -> None:

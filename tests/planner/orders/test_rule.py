@@ -33,6 +33,27 @@ def at(text: str, fold: int = 0) -> float:
     return datetime.fromisoformat(text).replace(tzinfo=BERLIN, fold=fold).timestamp()
 
 
+def shown(rule: Rule, after_s: float, count: int) -> list[str]:
+    due = upcoming(rule, after_s, BERLIN, count)
+    return [datetime.fromtimestamp(s, BERLIN).isoformat(timespec="minutes") for s in due]
+
+
+def test_a_time_that_a_spring_night_leaves_out_is_due_as_it_ends() -> None:
+    rule = CronRule(cron="30 2 * * *")
+    assert shown(rule, at("2027-03-27T12:00"), 2) == [
+        "2027-03-28T03:00+02:00",
+        "2027-03-29T02:30+02:00",
+    ]
+
+
+def test_a_time_that_an_autumn_night_has_twice_is_due_once() -> None:
+    rule = CronRule(cron="30 2 * * *")
+    after = at("2027-10-30T12:00")
+    assert shown(rule, after, 2) == ["2027-10-31T02:30+02:00", "2027-11-01T02:30+01:00"]
+    second = at("2027-10-31T02:15", fold=1)
+    assert shown(rule, second, 1) == ["2027-11-01T02:30+01:00"]
+
+
 def test_every_hour_is_due_each_hour_that_passes() -> None:
     due = upcoming(CronRule(cron="0 * * * *"), at("2027-10-31T00:30"), BERLIN, 5)
     assert all(b - a == 3600.0 for a, b in pairwise(due))
