@@ -54,16 +54,6 @@ def test_going_backwards_in_number_is_scored() -> None:
     assert "CMD_BAD.0" in world.rows()
 
 
-def test_a_planners_waypoints_are_not_its_to_send() -> None:
-    world = external_world()
-    drive_for(world, 0.5)
-    world.brain.next_horizon_s, world.brain.goal_m = 0.0, (4.0, 0.0)
-    world.tick()
-    assert world.last is not None
-    assert "no_grant" in world.last.reasons
-    assert world.state.leg.horizon is None
-
-
 def test_stop_outranks_it() -> None:
     world = external_world()
     drive_for(world, 1.0)
@@ -96,15 +86,6 @@ def test_without_a_pose_it_is_held_as_waypoints_are() -> None:
     world.localization_silent = False
     drive_for(world, 2.0)
     assert world.is_in(Mode.ACTIVE), "and goes on by itself"
-
-
-def test_with_no_fence_to_keep_it_needs_a_pose_all_the_same() -> None:
-    world = external_world()
-    world.core = replace(world.core, fence=None)
-    drive_for(world, 1.0)
-    world.localization_silent = True
-    drive_for(world, 2.0)
-    assert world.is_in(Mode.HOLD)
 
 
 def blocked_world(by: str = "obstacle") -> World:

@@ -201,16 +201,6 @@ def test_a_grant_knows_of_the_jump_or_is_dropped(after_s: float, granted: bool) 
     assert tick.s.grants.metres == (5.0 if granted else 0.0)
 
 
-def test_an_operators_spent_cap_refuses_a_new_grant() -> None:
-    world = reached("hold")
-    world.state.grants = replace(world.state.grants, operator_metres=0.0)
-    world.brain.mission = "new"
-    world.run(0.1)
-    codes = [answer.code for answer in world.shown.answers if answer.kind == "grant"]
-    assert codes == ["operator_budget"]
-    assert world.state.grants.mission is None
-
-
 def test_a_voided_hand_has_nothing_left_and_what_a_brain_may_drive_stays() -> None:
     tick = at("active")
     before = tick.s.grants

@@ -74,23 +74,6 @@ def test_stopping_again_and_again_drives_no_further_than_the_operator_cap() -> N
     assert world.is_in(Mode.HOLD)
 
 
-def test_a_hand_on_the_stick_uses_nothing_of_a_planner_up() -> None:
-    world = World().armed()
-    before = left(world)
-    world.teleop(held=False)
-    world.run(0.1)
-    for _ in range(40):
-        world.teleop(0.0 if world.is_in(Mode.HOLD) else 0.3, held=True)
-        world.run(0.05)
-    assert world.is_in(Mode.TELEOP)
-    assert way_m(world) > 0.2
-    world.run(2.0)  # released by silence: the ramp in HOLD is the stick's, too
-    assert (left(world).operator_metres, left(world).operator_seconds) == (
-        before.operator_metres,
-        before.operator_seconds,
-    )
-
-
 def steer(world: World, v_mps: float, seconds: float) -> None:
     """Steer by hand, as a stick does that a person holds."""
     for _ in range(round(seconds / 0.05)):
@@ -246,14 +229,6 @@ def test_a_budget_that_is_no_number_grants_nothing_in_the_core(metres: float) ->
 def test_a_budget_that_is_no_number_is_no_message(odd: float) -> None:
     with pytest.raises(ValidationError):
         Grant(planner_id="p", epoch="b-1", seen=1, mission="m", metres=odd, seconds=1.0)
-
-
-def test_a_clock_that_runs_backwards_gives_nothing_back() -> None:
-    world = World().driving()
-    before = left(world)
-    world.tick(-5.0)
-    assert left(world).operator_seconds <= before.operator_seconds
-    assert left(world).seconds <= before.seconds
 
 
 def test_disarm_and_protective_stop_fill_nothing_up() -> None:
