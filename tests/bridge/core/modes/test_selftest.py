@@ -7,12 +7,14 @@ from typing import Any
 
 import pytest
 
+from bridge.core.modes.mode_table import Fact
 from bridge.core.modes.selftest import (
     DONE,
     ECHO,
     RETURN,
     WITHHOLD,
     _wrong,
+    enter,
     run,
     waits_for,
     withholds,
@@ -224,3 +226,11 @@ def test_commands_are_withheld_in_that_phase_of_a_self_test_alone(start: str) ->
     assert tick.s.mode is mode
     for phase in (ECHO, WITHHOLD, RETURN, DONE):
         assert withholds(proving(phase)) is (phase == WITHHOLD)
+
+
+@table("start", ["hold", "active", "teleop"])
+def test_where_the_mode_table_knows_no_way_in_nothing_begins(start: str) -> None:
+    tick = at(start)
+    before = (tick.s.mode, tick.s.selftest)
+    enter(tick, Fact.UP, "up")
+    assert (tick.s.mode, tick.s.selftest) == before
