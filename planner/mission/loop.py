@@ -62,6 +62,7 @@ class Loop:
         self._collector = Collector()
         self._key_now: GoalKey | None = None
         self._helpers: MissionTasks | None = None
+        self._wording: Wording | None = None
         self._task: asyncio.Task[None] | None = None
         self._broken: BaseException | None = None
         self._ticked_s = self._told_s = float("-inf")
@@ -109,15 +110,10 @@ class Loop:
         """Take the eyes, and the model that may be asked about their pictures."""
         self._eyes = eyes
         self.door.see(eyes, looker)
-
-        def on_sight(sight: Sight) -> None:
-            self._event_beside(Sighted(sight, wording.of(eyes.classes)))
-
-        # What they said last is taken once more when their classes can be read.
-        wording = Wording(eyes.classes, self._spawn, lambda: on_sight(eyes.sight))
+        self._wording = Wording(eyes.classes, self._spawn, self._seen_anew)
         eyesight = Eyesight(camera, eyes.classes, model=looker is not None)
         self._engine.book = replace(self._engine.book, eyes=eyesight, sight=eyes.sight)
-        eyes.listen(on_sight)
+        eyes.listen(self._on_sight)
 
     def bound_search(self, pictures: PictureLimits, spent: Spent) -> None:
         """Bound one search by the vision model; ``spent`` tells what a goal's calls have cost."""
@@ -152,7 +148,7 @@ class Loop:
             ConfigError: the journal holds what this version can't read.
         """
         self._engine.book = replace(self.book, rules=rules)
-        kept = await self._disk.open(lambda entry: self._event_beside(Journalled(entry)))
+        kept = await self._disk.open(self._on_safe)
         await asyncio.to_thread(warm_up, self.book.facts, self.book.eyes.classes)
         answers = Answers(
             self.event, self._on_routed, self._link.obstacles, self._break,
@@ -268,15 +264,18 @@ class Loop:
         if news != self._told or now_s - self._told_s >= STATUS_NEWS_S:
             self._told, self._told_s = news, now_s
             self.hub.publish({"type": "status", "status": status})
-            progress = progress_of(self.book)  # the record shows it, too
-            if progress is not None and progress != self._progress:
-                self.hub.publish({"type": "progress", **progress})
-            self._progress = progress
+            self._tell_progress()
 
-    def _event_beside(self, event: Event) -> None:
-        """Take an event that comes beside the rounds; a fault of ours then ends them."""
+    def _tell_progress(self) -> None:
+        """Tell the rest of the running step where it changed; the record shows it, too."""
+        progress = progress_of(self.book)
+        if progress is not None and progress != self._progress:
+            self.hub.publish({"type": "progress", **progress})
+        self._progress = progress
+
+    def _on_safe(self, entry: int) -> None:
         try:
-            self.event(event)
+            self.event(Journalled(entry))
         except Exception as error:
             self._break(error)
             raise
@@ -305,6 +304,20 @@ class Loop:
         self._needs.tell(self.book, self._eyes)
         if self._helpers is not None:
             self._helpers.await_answer(asked_about_picture(self.book))
+
+    def _seen_anew(self) -> None:
+        """Take what the eyes said last once more: their classes can be read now."""
+        if self._eyes is not None:
+            self._on_sight(self._eyes.sight)
+
+    def _on_sight(self, sight: Sight) -> None:
+        if self._eyes is None or self._wording is None:
+            return
+        try:
+            self.event(Sighted(sight, self._wording.of(self._eyes.classes)))
+        except Exception as error:
+            self._break(error)
+            raise
 
     def _do(self, effect: Effect) -> None:
         match effect:
