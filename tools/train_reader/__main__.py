@@ -20,7 +20,7 @@ from tools.train_reader.fitting import fit
 
 SENTENCES = Path(__file__).parent / "sentences"
 KEPT_AWAY = 3
-UNREAD = frozenset({39, 40, 41, 42, 43, 44, 45})
+UNREAD = frozenset({39, 40, 41, 42, 43, 44, 45, 47, 48})
 """Files that are taught to no reader: they tell how the shipped one reads people it never met."""
 
 

@@ -107,7 +107,7 @@ def veto(found: Veto, marked: MarkedText, setting: Setting) -> Plan:
     """Return the no, or for "or" the question, to a sentence that may not be read as an order."""
     part = marked.restore(found.part)
     if found.code not in (Code.AMBIGUOUS, Code.NOT_UNDERSTOOD):
-        return Refuse(code=found.code, reason=message(found.code, part=_cut(part)))
+        return Refuse(code=found.code, reason=message(found.code, part=quote_part(part)))
     named = dict.fromkeys(m.ids[0] for m in marked.mentions if len(m.ids) == 1)
     several = found.code is Code.AMBIGUOUS or len(named) == 1
     buttons = tuple(setting.button((GoTo(place=place),)) for place in named)
@@ -116,7 +116,7 @@ def veto(found: Veto, marked: MarkedText, setting: Setting) -> Plan:
 
 def unsafe(rule: Bilingual, part: str) -> Refuse:
     """Return the no to an order that would do harm, with the rule that it breaks."""
-    return Refuse(code=Code.UNSAFE, reason=message(Code.UNSAFE, part=_cut(part), rule=rule))
+    return Refuse(code=Code.UNSAFE, reason=message(Code.UNSAFE, part=quote_part(part), rule=rule))
 
 
 def _aloud(meaning: Meaning, setting: Setting) -> Meaning:
@@ -177,7 +177,7 @@ def _explain(
 
 
 def _lacking(worst: ClauseProblem, offered: tuple[Step, ...], setting: Setting) -> Plan:
-    said = message(worst.code, part=_cut(worst.part))
+    said = message(worst.code, part=quote_part(worst.part))
     if not _drives(offered) or not setting.offers:
         return Refuse(code=worst.code, reason=said)
     order = sentence(offered, setting.vocabulary, setting.lexicon)
@@ -188,14 +188,14 @@ def _lacking(worst: ClauseProblem, offered: tuple[Step, ...], setting: Setting) 
 def _ask(problem: ClauseProblem, options: tuple[Option, ...], setting: Setting) -> Clarify:
     if problem.code is Code.INCOMPLETE:
         what = problem.what or say_same("?")
-        question = message(problem.code, part=_cut(problem.part), what=what)
+        question = message(problem.code, part=quote_part(problem.part), what=what)
     elif problem.code is Code.UNKNOWN_PLACE:
         question = _unknown(problem, setting)
     elif problem.code is Code.NOT_UNDERSTOOD and len(options) == 1 and setting.offers:
-        said = say("grammar.unread_part", part=_cut(problem.part))
+        said = say("grammar.unread_part", part=quote_part(problem.part))
         question = say("grammar.only", said=said, order=options[0].label)  # what a yes does is told
     else:
-        question = message(problem.code, part=_cut(problem.part))
+        question = message(problem.code, part=quote_part(problem.part))
     return Clarify(code=problem.code, question=question, options=options if setting.offers else ())
 
 
@@ -205,7 +205,9 @@ def _unknown(problem: ClauseProblem, setting: Setting) -> Bilingual:
     near = (
         say("grammar.did_you_mean", names=list_names(names, "joint.or")) if names else say_same("")
     )
-    return message(problem.code, name=_cut(problem.name), near=near, known=known_places(vocabulary))
+    return message(
+        problem.code, name=quote_part(problem.name), near=near, known=known_places(vocabulary)
+    )
 
 
 def _answer(topic: Topic, setting: Setting) -> AnswerPlan:
@@ -251,7 +253,8 @@ def _drives(steps: Sequence[Step]) -> bool:
     return any(isinstance(step, GoTo | ReturnHome | Find | Patrol | Explore) for step in steps)
 
 
-def _cut(part: str) -> Bilingual:
+def quote_part(part: str) -> Bilingual:
+    """Return words of a sentence as they are quoted in an answer: not too many of them."""
     return say_same(part if len(part) <= _SHOWN else part[: _SHOWN - 1] + "…")
 
 

@@ -110,7 +110,9 @@ def denied_places(text: str, vocabulary: Vocabulary) -> frozenset[str]:
         named = {found.id for found in find_places(clause.text, vocabulary)}
         if clause.mood is not ClauseMood.DENIED:
             meant |= named
-            before = named if clause.mood is not ClauseMood.ORDER else set()
+            is_order = clause.mood is ClauseMood.ORDER and not is_bare(clause.text, vocabulary)
+            if named or is_order:
+                before = named if not is_order else set()
         elif named or not _THERE.search(clause.text):
             denied |= named
         else:

@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING
 from pydantic import ValidationError
 
 from planner.language.catalogue import join, say
+from planner.language.grammar.checks import condition_in
 from planner.language.grammar.compound_forms import read_hour
 from planner.language.grammar.lexicon import lexicon_of
-from planner.language.grammar.plan_assembly import sentence
+from planner.language.grammar.plan_assembly import quote_part, sentence
+from planner.language.grammar.sentence_text import normalise
 from planner.language.motion_guard import denied_places
 from planner.language.order_sentence import (
     is_order_sentence,
@@ -64,25 +66,25 @@ if TYPE_CHECKING:
     from planner.language.semantic_parser.plan_grammar import LabelledPlan, PlanNode
     from planner.plan import Vocabulary
 
-SURE = 0.15
-"""From here on a plan is offered; a person says no to what was not meant."""
+SURE = 0.07
+"""From here on a plan is offered: of those offers half are right, and a no costs a word."""
 MOST_OFFERED, MOST_TOLD = 3, 250
 """Plans, and characters of the question about them: nobody hears out more."""
 FAIRLY_SURE = 0.3
-"""From here on where the rules offer a part themselves, and of a plan that names nothing said,
-as ``turn(around)``: gibberish is read so."""
+"""From here on where the rules offer a part themselves or see a choice, and of a plan that names
+nothing said, as ``turn(around)``: gibberish is read so."""
 UNRIVALLED = 0.7
 """From here on the likeliest plan is offered alone, below it with those that come close."""
 CLOSE = 0.15
 """Of the likeliest one's confidence: so much another plan needs to be offered beside it."""
-_BEYOND = frozenset({Code.NO_CAPABILITY})
-_DOUBTED = frozenset({Code.AMBIGUOUS, Code.OUT_OF_SCOPE})
-UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _BEYOND | _DOUBTED
+_DOUBTED = frozenset({Code.AMBIGUOUS, Code.OUT_OF_SCOPE, Code.NO_CAPABILITY})
+UNREAD = frozenset({Code.NOT_UNDERSTOOD, Code.CONDITIONAL, Code.NEGATED}) | _DOUBTED
 """What the rules say of sentences that this may read."""
 SURER = 0.6
 """From here on the reader is believed though a rule speaks against it, and what it takes for a
 question to memory or for talk is answered without a yes: nothing drives for these."""
-_LEAST = dict.fromkeys(_DOUBTED, SURER) | {Code.NEGATED: FAIRLY_SURE, Code.CONDITIONAL: 0.25}
+_LEAST = dict.fromkeys(_DOUBTED, SURER) | dict.fromkeys((Code.NEGATED, Code.CONDITIONAL), 0.1)
+_LEAST[Code.AMBIGUOUS] = FAIRLY_SURE
 """From here on where the rules say why they won't."""
 COMMANDS: dict[str, tuple[str, str]] = {
     "slower": ("slow down", "慢一点"),
@@ -98,7 +100,7 @@ COMMANDS: dict[str, tuple[str, str]] = {
 """What the planner itself does upon a yes, in words that it reads."""
 _TOLD = COMMANDS | {"here": ("take it that I am in the {words}", "当作我在{words}")}
 """In which words a person is asked for that yes."""
-_HANGING = CONTROL | {"wait_for", "wait"}
+HANGING = CONTROL | {"wait_for", "wait"}
 """Steps that wait for something, as the words "until" and "when" ask for."""
 _ROLES = {PlanRole.AFTER: "order.after", PlanRole.INSTEAD: "order.instead"}
 _ORDERS = frozenset({"at"} | {name for name in ALONE if name.startswith("order")})
@@ -149,8 +151,10 @@ def offer_plan(
     if surest.plan[0].form in _TALK:
         return _tell_talk(said, surest)
     offer = _offer_reading(said, surest)
-    if not isinstance(offer, StepPlan) and surest.confidence < UNRIVALLED:
-        least = CLOSE * surest.confidence if isinstance(offer, Clarify) else SURE
+    is_choice = told.code is Code.AMBIGUOUS
+    if not isinstance(offer, StepPlan) and (is_choice or surest.confidence < UNRIVALLED):
+        is_close = isinstance(offer, Clarify) and not is_choice
+        least = CLOSE * surest.confidence if is_close else SURE
         close = [each for each in others if each.confidence >= least]
         return _offer_several(said, [offer, *(_offer_reading(said, each) for each in close)])
     return offer
@@ -172,9 +176,7 @@ def _offer_several(
         ]
         question = join((say("grammar.guessed_several"), *ways))
         if len(question.of(said.language)) <= MOST_TOLD:
-            return Clarify(
-                code=Code.NOT_UNDERSTOOD, question=question, options=tuple(shown[:count])
-            )
+            return Clarify(code=said.told.code, question=question, options=tuple(shown[:count]))
     return next((each for each in asked if each.options), *offers[:1])
 
 
@@ -184,7 +186,7 @@ def _tell_talk(said: _UnreadSentence, read: ParsedPlan) -> Refuse | None:
     Nothing is asked, so nothing waits for an answer.
     """
     code = said.told.code
-    is_told = code in _BEYOND | _DOUBTED or (code is Code.NEGATED and not said.has_offer)
+    is_told = code in _DOUBTED or (code is Code.NEGATED and not said.has_offer)
     if read.confidence < SURER or is_told:
         return None
     return Refuse(code=Code.NOT_UNDERSTOOD, reason=say(_TALK[read.plan[0].form]))
@@ -197,7 +199,7 @@ def _offer_reading(said: _UnreadSentence, read: ParsedPlan) -> StepPlan | Clarif
     is_named = any(_said_words(each) for each in read.plan)
     if node.form in _TALK or (not is_named and read.confidence < FAIRLY_SURE):
         return None
-    if told.code in _BEYOND and said.has_offer and node.form not in CHANGES:
+    if told.code is Code.NO_CAPABILITY and said.has_offer and node.form not in CHANGES:
         return None  # a part of it is offered
     if told.code is Code.NEGATED and not is_sure and node.form in COMMANDS.keys() | _NEVER_DENIALS:
         return None
@@ -213,21 +215,32 @@ def _offer_reading(said: _UnreadSentence, read: ParsedPlan) -> StepPlan | Clarif
         or check_plan(plan, said.vocabulary, context.runnable, context.blind) is not None
     ):
         return without_offer
-    if _lacks_condition(plan, told.code) or _is_doubted(plan, told, is_sure=is_sure):
+    if told.code is Code.NEGATED and not is_sure and not _places_of(plan):
         return None
-    return _offer_steps(plan, said, at_once=is_sure)
+    lacks_condition = _lacks_condition(plan, told.code)
+    if lacks_condition and not is_sure:
+        return None
+    return _offer_steps(plan, said, at_once=is_sure, lacks_condition=lacks_condition)
 
 
 def _offer_steps(
-    plan: StepPlan, said: _UnreadSentence, *, at_once: bool
+    plan: StepPlan, said: _UnreadSentence, *, at_once: bool, lacks_condition: bool
 ) -> StepPlan | Clarify | None:
-    """Return the question about a plan; a mere question to memory itself where it is sure."""
+    """Return the question about a plan; a mere question to memory itself where it is sure.
+
+    A condition that the plan doesn't wait for is named in it.
+    """
     if at_once and all(isinstance(step, Recall) for step in plan.steps):
         return plan
     if _places_of(plan) & _denied_in(said.text, said.vocabulary):
         return None
     label = _tell(plan, said.vocabulary)
-    return _ask_for(Option(label=label, text=label.of(said.language)[:2000], plan=plan))
+    if lacks_condition:
+        part = condition_in(normalise(said.text))
+        if part is None:
+            return None
+        label = say("order.unchecked", order=label, part=quote_part(part))
+    return _ask_for(said, Option(label=label, text=label.of(said.language)[:2000], plan=plan))
 
 
 def _offer_command(node: PlanNode, said: _UnreadSentence) -> Clarify | None:
@@ -247,7 +260,7 @@ def _offer_command(node: PlanNode, said: _UnreadSentence) -> Clarify | None:
     )
     text = command.of(said.language)
     is_read = parse_sentence(text).intent is not None
-    return _ask_for(Option(label=label, text=text)) if is_read else None
+    return _ask_for(said, Option(label=label, text=text)) if is_read else None
 
 
 def _offer_standing_order(node: PlanNode, said: _UnreadSentence) -> Clarify | None:
@@ -278,15 +291,7 @@ def _offer_standing_order(node: PlanNode, said: _UnreadSentence) -> Clarify | No
 def _lacks_condition(plan: StepPlan, code: Code) -> bool:
     """Return whether an order hangs on something that its plan doesn't wait for."""
     kinds = {node.step.kind for node in list_nodes(plan.steps)}
-    return code is Code.CONDITIONAL and not kinds & _HANGING and plan.does is not PlanRole.AFTER
-
-
-def _is_doubted(plan: StepPlan, told: Clarify | Refuse, *, is_sure: bool) -> bool:
-    """Return whether rules see a choice, a deed beyond the robot, or one denied with no place."""
-    if told.code is Code.AMBIGUOUS:
-        return not all(isinstance(step, Recall) for step in plan.steps)
-    denied = told.code is Code.NEGATED and not _places_of(plan)
-    return not is_sure and (told.code in _BEYOND or denied)
+    return code is Code.CONDITIONAL and not kinds & HANGING and plan.does is not PlanRole.AFTER
 
 
 @lru_cache(maxsize=4)
@@ -312,7 +317,7 @@ def _make_steps(plan: LabelledPlan, said: _UnreadSentence) -> StepPlan | None:
         return change_order(plan[0], newest)
 
     def read_coming(words: str) -> str | None:
-        return read_hour(words, now)
+        return read_hour(words, now) or read_hour(f"at {words}", now)
 
     maker = StepMaker(said.vocabulary, said.language, read_coming, read_span)
     made = maker.plan(name_pointed(plan, newest))
@@ -326,6 +331,6 @@ def _tell(plan: StepPlan, vocabulary: Vocabulary) -> Bilingual:
     return say(role, order=told) if role else told
 
 
-def _ask_for(button: Option) -> Clarify:
+def _ask_for(said: _UnreadSentence, button: Option) -> Clarify:
     question = say("grammar.guessed", order=button.label)
-    return Clarify(code=Code.NOT_UNDERSTOOD, question=question, options=(button,))
+    return Clarify(code=said.told.code, question=question, options=(button,))

@@ -30,8 +30,8 @@ ORDERS = {
         ("去厨防", "我不知道叫“厨防”的地方。您是指厨房吗？已知的地方：客厅"),
     ),
     Code.AMBIGUOUS: (
-        ("go to the kitchen or the study", "can mean more than one thing. Which one?"),
-        ("去厨房还是书房", "可能有不止一个意思，您指的是哪一个？"),
+        ("go to the kitchen or the study", "Which do you want? First: go to the kitchen. Second:"),
+        ("去厨房还是书房", "您要哪一个？第一：去厨房。第二：去书房"),
     ),
     Code.INCOMPLETE: (
         ("follow Mary", "Something is missing in “Mary”: where is Mary? Name the place."),
@@ -50,7 +50,10 @@ ORDERS = {
         ("不要去厨房", "我理解为不要这样做，因此不会为此移动。"),
     ),
     Code.CONDITIONAL: (
-        ("go to the kitchen if it is empty", "I can't check the condition “if it is empty”,"),
+        (
+            "if the bell rings, go to the kitchen",
+            "I can't check the condition “if the bell rings”,",
+        ),
         ("如果天黑了就去厨房", "所以不会开始。"),
     ),
     Code.OUT_OF_SCOPE: (

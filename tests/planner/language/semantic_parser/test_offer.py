@@ -7,14 +7,16 @@ from datetime import UTC, datetime
 import pytest
 
 from planner.language.grammar.context import Context
+from planner.language.motion_guard.mentioned_names import find_places
 from planner.language.readers import OrderWords, read_order
 from planner.language.schedule import ScheduleCommand
-from planner.language.semantic_parser.offer import MOST_OFFERED
+from planner.language.semantic_parser.offer import HANGING, MOST_OFFERED
 from planner.language.sentence import parse
 from planner.plan import (
     EVERY_KIND,
     AnswerPlan,
     Clarify,
+    Code,
     Language,
     Plan,
     Refuse,
@@ -131,6 +133,32 @@ def test_what_may_mean_several_orders_is_a_choice_of_plans_told_in_words(text: s
         assert len(set(told)) == len(told)
         assert all(words in asked.question.of(language) for words in told)
     assert all(button.plan is not None for button in asked.options)
+
+
+@pytest.mark.parametrize("text", ["kitchen or study, go", "去客厅还是厨房呢", "去厨房或客厅"])
+def test_of_two_places_that_are_named_both_are_laid_before_the_person(text: str) -> None:
+    asked = read(text)
+    assert isinstance(asked, Clarify)
+    assert asked.code is Code.AMBIGUOUS
+    named = {found.id for found in find_places(text, WORLD.vocabulary)}
+    singles = [places_of(button.plan.steps[0]) for button in asked.options if button.plan]
+    assert named <= {place for places in singles for place in places}
+
+
+def test_a_condition_that_a_plan_does_not_wait_for_is_named_in_its_offer() -> None:
+    named = 0
+    for text, condition in (
+        ("go to the kitchen when the moon is full", "when the moon is full"),
+        ("go to the kitchen when the timer rings", "when the timer rings"),
+        ("go to the study if it is empty", "if it is empty"),
+        ("厨房没人看着，你要是能过去待着我就放心了", "要是能过去待着我"),
+    ):
+        for button in getattr(read(text), "options", ()):
+            waits = {node.step.kind for node in list_nodes(button.plan.steps)} & HANGING
+            is_named = condition in button.label.en and condition in button.label.zh
+            assert waits or is_named, text
+            named += is_named
+    assert named
 
 
 @pytest.mark.parametrize("text", ["zwei dingse flumpen", "天地玄黄", "qwertz uiop", "12345", "hmm"])
