@@ -7,10 +7,9 @@ from typing import Any
 
 import pytest
 
-from planner.brain.offline_brain import TAG
 from planner.language.sentence import parse
 from planner.mission.effects import AskBrain
-from planner.mission.events import Planned, Submitted
+from planner.mission.events import Submitted
 from planner.mission.follow_up import LEANS_S
 from planner.mission.open_questions import find_offered_plan
 from planner.mission.reducer import advance
@@ -155,25 +154,21 @@ def test_the_goal_keeps_both_what_was_said_and_what_it_means() -> None:
     "said", ["the second one", "number two", "2", "第二个", "the study, please", "the study"]
 )
 def test_an_order_that_a_question_offers_is_chosen_aloud(said: str) -> None:
-    text = "go to the kitchen or the study"
-    book, _ = advance(BARE, Submitted("g0", text, Language.EN), NOW_S)
     options = tuple(Option(text=f"go to the {place}", label=say_same(f"go to the {place}"))
                     for place in ("kitchen", "study"))  # fmt: skip
     asks = Clarify(code=Code.AMBIGUOUS, question=say_same("Which one?"), options=options)
-    book, _ = advance(book, Planned("g0", asks, None, TAG), NOW_S)
+    book = order_asked_about("go to the kitchen or the study", asks)
     assert means(book, said, "go to the study")
     assert changed_by(book, "the third one") is None
 
 
 @pytest.mark.parametrize("said", ["the second one", "option 2", "第二个", "go to the study"])
 def test_of_plans_laid_side_by_side_the_one_that_is_named_is_done_as_it_stands(said: str) -> None:
-    book, _ = advance(BARE, Submitted("g0", "study or so", Language.EN), NOW_S)
     options = tuple(Option(text=f"go to the {place}", label=say_same(f"go to the {place}"),
                            plan=StepPlan(steps=(GoTo(place=place),)))
                     for place in ("kitchen", "study"))  # fmt: skip
     asks = Clarify(code=Code.NOT_UNDERSTOOD, question=say_same("Which?"), options=options)
-    book, _ = advance(book, Planned("g0", asks, None, TAG), NOW_S)
-    asking = book.missions["g0"]
+    asking = newest(order_asked_about("study or so", asks))
     assert find_offered_plan(asking, said) == options[1].plan
     assert find_offered_plan(asking, "the third one") is None
 
@@ -331,8 +326,7 @@ def test_a_wrong_destination_stops_whatever_is_said_behind_it(
 SLOW = replace(LOOKING, missions={"g0": newest(LOOKING).model_copy(update={"speed_share": 0.5})})
 COUNTING = order_under_way(
     "count the chairs in the kitchen and the bedroom",
-    Count(object="chairs", place="kitchen"),
-    Count(object="chairs", place="bedroom"),
+    *(Count(object="chairs", place=place) for place in ("kitchen", "bedroom")),
 )
 COUNTING_ZH = order_under_way(
     "去厨房和客厅数椅子",
@@ -357,10 +351,17 @@ SAYS_ZH = order_under_way("去书房说吃饭了")
 MUM_THERE = order_done("tell Mum in the kitchen lunch is ready")
 MUM_BARE = order_done("tell Mum lunch is ready")
 MUM_THERE_ZH = order_done("去厨房告诉妈妈吃饭了")
+SEES_TO = "see to the kitchen and the study"
+COUNTED_BOTH = order_done(
+    SEES_TO, *(Count(object="cup", place=place) for place in ("kitchen", "study"))
+)
+PATROLLED_BOTH = order_done(SEES_TO, Patrol(places=("kitchen", "study"), look=True))
 BACKPACK = order_under_way("look for my backpack in the kitchen")
 ON_BED = order_under_way("go to the bedroom and see if the cat is on the bed")
 GRANDMA = "tell Grandma in the study that tea is ready"
 MUM_MOVED = "tell Mum in the study lunch is ready"
+BACKPACK_MOVED = "look for the backpack in the study"
+RED_CUP = "look for the red cup in the study"
 CAT_MOVED = "go to the living room and see if the cat is on the sofa"
 
 
@@ -370,9 +371,8 @@ CAT_MOVED = "go to the living room and see if the cat is on the sofa"
         # What was looked for is asked of one more place, and a search without a place narrowed.
         (COUNTING, "and in the study?", "count the chairs in the study"),
         *each(COUNTING, "count the chairs in the study", "what about the study?", "and the study?"),
-        (SEARCH, "and in the study?", "look for the red cup in the study"),
-        (SEARCH, "what about the study?", "look for the red cup in the study"),
-        *each(SEARCH, "look for the red cup in the study", "and the study?", "no, the study"),
+        *each(SEARCH, RED_CUP, "and in the study?", "what about the study?", "and the study?"),
+        (SEARCH, "no, the study", RED_CUP),
         *each(COUNTING_ZH, "数一下书房的椅子", "书房呢", "那书房里呢"),
         *each(SEARCH_ZH, "去书房找红杯子", "书房呢", "那书房里呢"),
         # A look that is asked for says nothing there.
@@ -409,33 +409,15 @@ CAT_MOVED = "go to the living room and see if the cat is on the sofa"
         # Who is elsewhere is told there, and what is sought is sought there.
         *each(MUM_THERE_ZH, "去书房告诉妈妈吃饭了", "不对，她在书房呢", "她不在厨房，在书房"),
         (MUM_THERE_ZH, "不，她现在在书房", "去书房告诉妈妈吃饭了"),
-        (BACKPACK, "no, it's in the study", "look for the backpack in the study"),
-        (
-            BACKPACK,
-            "it's not in the kitchen, it's in the study",
-            "look for the backpack in the study",
-        ),
+        (BACKPACK, "no, it's in the study", BACKPACK_MOVED),
+        (BACKPACK, "it's not in the kitchen, it's in the study", BACKPACK_MOVED),
         # A thing in a room is corrected with its room; a room without the thing is asked about.
         *each(ON_BED, CAT_MOVED, "no, the sofa", "I meant the sofa"),
         (ON_BED, "No, sorry, the living room, on the sofa.", CAT_MOVED),
         *each(ON_BED, None, "no, the kitchen", "no, the study, on the sofa"),
         # A correction of two places is no bare drive.
-        (
-            order_done(
-                "see to the kitchen and the study",
-                Count(object="cup", place="kitchen"),
-                Count(object="cup", place="study"),
-            ),
-            "no, the bedroom",
-            None,
-        ),
-        (
-            order_done(
-                "see to the kitchen and the study", Patrol(places=("kitchen", "study"), look=True)
-            ),
-            "no, the bedroom",
-            None,
-        ),
+        (COUNTED_BOTH, "no, the bedroom", None),
+        (PATROLLED_BOTH, "no, the bedroom", None),
         # A slow round is not made a fast one, and who has one place to go to leaves none out.
         (SLOW, "skip the bedroom", None),
         (BEDROOM, "skip the bedroom", None),

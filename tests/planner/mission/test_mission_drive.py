@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 
 import pytest
@@ -10,7 +11,7 @@ from planner.mission import events
 from planner.mission.plan_roles import LEAST_SPEED_SHARE
 from planner.mission.route_doubts import LASTS_S, MEETING_SHARE
 from planner.plan import Code, ComeBack, GoTo, MoveStraight, ReturnHome, StepPlan, StepState, Turn
-from tests.planner.mission.fakes import FakeBridge, outcome_of, row
+from tests.planner.mission.fakes import FACTS, FakeBridge, outcome_of, row
 from tests.planner.mission.lockstep import (
     CANCELLED,
     FAILED,
@@ -56,6 +57,23 @@ def test_there_and_back_ends_where_the_goal_was_accepted(world: Together) -> Non
     assert done.leg == 3
 
 
+def test_coming_back_without_a_pose_to_come_back_to_fails(world: Together) -> None:
+    world.bridge.localized = False
+    world.run()
+    goal = world.give(StepPlan(steps=(ComeBack(),)))
+    assert (world.goal(goal).state, world.goal(goal).reason) == (FAILED, "no_route")
+
+
+def test_a_goal_given_before_the_robot_is_localized_starts_once_it_is(world: Together) -> None:
+    world.bridge.localized = False
+    world.run()
+    goal = world.give(go("kitchen"))
+    world.run(2.0)
+    assert world.routes == []
+    world.bridge.localized = True
+    world.run_until(goal, SUCCEEDED)
+
+
 def test_first_waypoint_needs_no_further_status_once_granted(world: Together) -> None:
     goal = world.give(go("kitchen"))
     assert world.bridge.granted == goal, "the grant is asked for as soon as there is a plan"
@@ -99,6 +117,14 @@ def test_second_goal_waits_its_turn(world: Together) -> None:
     world.run_until(first, SUCCEEDED)
     assert world.goal(third).state is RUNNING
     world.run_until(second, SUCCEEDED)
+
+
+def test_a_goal_put_last_is_last(world: Together) -> None:
+    driving(world)
+    second, third, fourth = (world.give(go("hall")) for _ in range(3))
+    world.event(events.Move(second))
+    assert world.book.queue == (third, fourth, second)
+    assert world.disk_entries[-1].queue == world.book.queue, "the order outlives us"
 
 
 def test_replace_ends_the_running_goal_once_the_new_one_is_understood(world: Together) -> None:
@@ -173,6 +199,21 @@ def test_pause_and_resume_keep_the_place(world: Together) -> None:
     world.run_until(waiting, SUCCEEDED)
 
 
+def test_thinking_and_queued_goals_can_be_paused_and_resumed(world: Together) -> None:
+    running, queued, thinking = driving(world), world.give(go("hall")), world.give(None)
+    world.event(events.Pause(thinking))
+    assert (world.goal(thinking).state, world.dropped) == (PAUSED, [thinking])
+    world.event(events.Pause(queued))
+    assert world.goal(queued).held
+    world.run_until(running, SUCCEEDED)
+    assert standing_still(world)
+    world.event(events.Resume(queued))
+    world.run_until(queued, SUCCEEDED)
+    world.plans[thinking] = go("dock")
+    world.event(events.Resume(thinking))
+    world.run_until(thinking, SUCCEEDED)
+
+
 def test_cancel_halts_with_a_horizon_of_no_points(world: Together) -> None:
     goal = driving(world)
     world.event(events.Cancel(goal))
@@ -202,6 +243,20 @@ def test_a_way_to_furniture_ends_at_the_heading_that_faces_it(world: Together) -
             if world.goal(goal).state is SUCCEEDED:
                 break
         assert {round(each, 4) for each in seen} == {round(heading, 4)}
+
+
+def test_a_place_that_is_forgotten_on_the_way_stops_the_robot_and_is_told(world: Together) -> None:
+    goal = world.give(go("kitchen"))
+    world.plans[goal] = go("kitchen")  # the brain knows nothing better
+    world.run(1.0)
+    left = {place: target for place, target in FACTS.targets.items() if place != "kitchen"}
+    world.event(events.Known(replace(FACTS, targets=left)))
+    world.run(0.2)
+    mission = world.goal(goal)
+    assert (mission.state, mission.reason) == (FAILED, "place_gone")
+    assert outcome_of(mission).code is Code.UNKNOWN_PLACE
+    assert (outcome_of(mission).metres or 0.0) > 0.2
+    assert world.bridge.horizon is None
 
 
 @pytest.mark.parametrize(

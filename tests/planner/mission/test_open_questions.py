@@ -18,7 +18,6 @@ from planner.plan import (
     BrainTag,
     Clarify,
     Code,
-    ComeBack,
     GoalState,
     GoTo,
     Language,
@@ -147,52 +146,12 @@ def test_an_order_to_stop_is_a_goal_that_is_done(world: Together) -> None:
     assert (world.goal("s2").state, world.goal("s2").reason) == (FAILED, "bridge_silent")
 
 
-def test_thinking_and_queued_goals_can_be_paused_and_resumed(world: Together) -> None:
-    running, queued, thinking = driving(world), world.give(go("hall")), world.give(None)
-    world.event(events.Pause(thinking))
-    assert (world.goal(thinking).state, world.dropped) == (PAUSED, [thinking])
-    world.event(events.Pause(queued))
-    assert world.goal(queued).held
-    world.run_until(running, SUCCEEDED)
-    assert standing_still(world)
-    world.event(events.Resume(queued))
-    world.run_until(queued, SUCCEEDED)
-    world.plans[thinking] = go("dock")
-    world.event(events.Resume(thinking))
-    world.run_until(thinking, SUCCEEDED)
-
-
-def test_a_goal_put_last_is_last(world: Together) -> None:
-    driving(world)
-    second, third, fourth = (world.give(go("hall")) for _ in range(3))
-    world.event(events.Move(second))
-    assert world.book.queue == (third, fourth, second)
-    assert world.disk_entries[-1].queue == world.book.queue, "the order outlives us"
-
-
 def test_only_so_many_ended_goals_stay_at_hand(world: Together) -> None:
     running = driving(world)
     goals = [world.give(go("cellar")) for _ in range(MAX_ENDED + 5)]
     assert len(world.book.missions) == MAX_ENDED + 1
     assert goals[4] not in world.book.missions
     assert {goals[5], goals[-1], running} <= set(world.book.missions)
-
-
-def test_coming_back_without_a_pose_to_come_back_to_fails(world: Together) -> None:
-    world.bridge.localized = False
-    world.run()
-    goal = world.give(StepPlan(steps=(ComeBack(),)))
-    assert (world.goal(goal).state, world.goal(goal).reason) == (FAILED, "no_route")
-
-
-def test_a_goal_given_before_the_robot_is_localized_starts_once_it_is(world: Together) -> None:
-    world.bridge.localized = False
-    world.run()
-    goal = world.give(go("kitchen"))
-    world.run(2.0)
-    assert world.routes == []
-    world.bridge.localized = True
-    world.run_until(goal, SUCCEEDED)
 
 
 PLAN = StepPlan(steps=(GoTo(place="dock"), Ask(question="Shall I go on?"), GoTo(place="kitchen")))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from planner.brain import BrainDown, FallbackBrain, OfflineBrain, OutOfBudget, ScriptedBrain
@@ -9,13 +11,25 @@ from planner.brain.interface import Brain
 from planner.brain.scripted import Reply
 from planner.brain.situation import RecentGoal, Situation
 from planner.mission.effects import AskBrain
-from planner.mission.events import Planned
+from planner.mission.events import Planned, Submitted
 from planner.mission.plan_request import thinker
 from planner.mission.reducer import advance
-from planner.plan import Code, GoTo, Language, Means, StepPlan, say_same
+from planner.plan import (
+    Clarify,
+    Code,
+    ComeBack,
+    GoalState,
+    GoTo,
+    Language,
+    Means,
+    StepPlan,
+    say_same,
+)
 from planner.site.site_view import vocabulary_of
 from tests.planner.brain.conftest import HOME
 from tests.planner.mission.leaning import NOW_S, SITE, heard, order_done
+from tests.planner.mission.lockstep import Together, go
+from wire import Pose2
 
 NOWHERE = StepPlan(steps=(GoTo(place="wine_cellar"),))
 DOWN = BrainDown("gone", why="timeout")
@@ -104,3 +118,20 @@ async def test_where_a_model_fails_the_built_in_brain_plans_the_change(said: str
     assert event.plan == StepPlan(steps=(GoTo(place="study"),))
     assert event.brain is not None
     assert event.brain.fallback_reason is not None
+
+
+@pytest.mark.parametrize("text", ["come back", "ok, now come back", "回来", "好，回来吧"])
+async def test_the_grammar_comes_back_where_an_order_led_away_and_asks_where_none_did(
+    text: str,
+) -> None:
+    world = Together()
+    world.bridge.pose = Pose2(0.4, -0.3, 0.5)
+    world.run(0.2)
+    world.run_until(world.give(go("kitchen")), GoalState.SUCCEEDED)
+    plans = []
+    for book in (world.book, replace(world.book, missions={})):
+        _, effects = advance(book, Submitted("new", text, Language.EN), world.now_s)
+        ask = next(each for each in effects if isinstance(each, AskBrain))
+        plans.append((await thinker(OfflineBrain(), HOME)(ask)).plan)
+    assert plans[0] == StepPlan(steps=(ComeBack(),))
+    assert isinstance(plans[1], Clarify)

@@ -23,14 +23,17 @@ from planner.plan import (
     GoTo,
     Look,
     Patrol,
+    ReturnHome,
     Say,
     Step,
     StepPlan,
+    Wait,
     say_same,
 )
 from planner.skills.skill_state import LookState
 from tests.laws import at_least
 from tests.planner.mission.fakes import FACTS, outcome_of
+from tests.planner.mission.lockstep import rethinking
 from tests.planner.mission.telling import NOTHING, Telling, thing, untruths
 
 NAMES = {place: target.name for place, target in FACTS.targets.items()}
@@ -155,6 +158,26 @@ def played(goal: Goal, manner: str, **more: Any) -> tuple[Telling, Mission]:
         first = next(s for s in goal.thoughts[0].steps if isinstance(s, GoTo))
         world.shut((FACTS.targets[first.place].pose,))
     return world, world.play(*goal.thoughts)
+
+
+@pytest.mark.parametrize(
+    ("steps", "code", "en"),
+    [
+        ((GoTo(place="kitchen"),), Code.ARRIVED, "Arrived: kitchen."),
+        ((GoTo(place="kitchen"), ReturnHome()), Code.ARRIVED, "Arrived: kitchen, then dock."),
+        ((GoTo(place="kitchen"), DINNER), Code.ARRIVED,
+         "Arrived: kitchen. I said “dinner is ready”."),
+        ((DINNER,), Code.DONE, "I said “dinner is ready”."),
+        ((Wait(seconds=0.2), GoTo(place="hall")), Code.ARRIVED,
+         "I waited 0.2 seconds. Arrived: hall."),
+        ((Patrol(places=("kitchen", "hall")),), Code.ARRIVED,
+         "Visited one after the other: kitchen, hall."),
+    ],
+)  # fmt: skip
+def test_each_step_is_accounted_for(steps: tuple[Step, ...], code: Code, en: str) -> None:
+    world = rethinking(plan(*steps))
+    mission = world.run_until(world.give(None), GoalState.SUCCEEDED)
+    assert (outcome_of(mission).code, told(mission).en) == (code, en)
 
 
 @pytest.mark.parametrize("manner", MANNERS)
