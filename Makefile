@@ -69,7 +69,7 @@ test: $(DEV) $(PAGE_DEV) $(PAGE) ## run the unit tests and the two-room stories 
 	@$(if $(CHANGED)$(ROOM),$(if $(strip $(CHOSEN)),,echo "no test imports what changed"; exit 0;)) scripts/units.sh $(GATE) $(CHOSEN) $(ARGS)
 	@$(if $(CHANGED)$(ROOM),$(if $(strip $(TOLD)),,exit 0;)) exec scripts/stories.sh -m "e2e and not home" $(GATE) $(TOLD) $(ARGS)
 
-e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, units, and the page in Chromium
+e2e: $(DEV) $(PAGE_DEV) $(PAGE) ## drive through the whole default home, and from a wheel; try models, calibration, fence, black box, systemd units, and the page in Chromium
 	@exec $(BIN)/python scripts/at_once.py \
 	  scripts/stories.sh -n 0 -m "e2e or home" $(GATE) $(HOME_ROW) $(PAGE_BESIDE_HOME) $(ARGS) \
 	  ++ scripts/stories.sh -n 0 -m "e2e or home" $(GATE) $(OWN_ROW) $(PAGE_BESIDE_OWN) $(ARGS) \

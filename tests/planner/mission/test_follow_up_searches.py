@@ -469,14 +469,6 @@ def test_what_was_seen_is_asked_once_a_look_is_over_and_never_before(said: str, 
     assert changed_by(order_under_way("an order", GoTo(place="kitchen")), said) is None
 
 
-def test_of_two_people_a_place_of_an_answer_and_what_was_long_ago_nothing_is_meant() -> None:
-    two = order_under_way("are Tom and Peter in the study?", GoTo(place="study"))
-    assert changed_by(two, "tell him tea is ready") is None
-    found = order_under_way("an order", Find(object="cup", place="kitchen"))
-    assert changed_by(found, "go there") is None
-    assert changed_by(DAD, "if he is, come back", LEANS_S + 1.0) is None
-
-
 TOLD_MUM = order_done("tell Mum tea is ready")
 
 
